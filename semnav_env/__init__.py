@@ -1,11 +1,12 @@
 """semnav-env: a Gymnasium environment for semantic indoor navigation.
 
 Importing it registers `SemNav-Train-v0`, which draws the episodes of the split `train`,
-`SemNav-v0`, which draws commands in one floor plan, and `SearchAndRescue-v0`; say
-`gymnasium.make("semnav_env:SemNav-Train-v0")` to do both. No spec has a time limit before it is
-made: `max_seconds` and the lidar say how many steps an episode has at most.
+`SemNav-v0`, which draws commands in one floor plan, and `SearchAndRescue-v0`.
+`gymnasium.make("semnav_env:SemNav-Train-v0")` imports the package and makes an environment. The
+spec of an environment has no time limit before the environment is made, because the largest number
+of steps follows from `max_seconds` and the lidar.
 
-Names are loaded when they are asked for, so a robot that needs `BeliefTracker` and `parse` loads no
+Names are loaded at their first use. A robot that needs `BeliefTracker` and `parse` loads no
 simulator.
 """
 

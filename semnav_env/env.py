@@ -1,4 +1,4 @@
-"""The environment: the one place where simulator, belief, judge and picture meet."""
+"""The Gymnasium environment, which connects simulator, belief tracker, judge and renderer."""
 
 from __future__ import annotations
 
@@ -34,46 +34,50 @@ from semnav_features.one_thread import for_one_thread
 
 
 class SemNavEnv(GymnasiumEnv[Any]):
-    """A robot in an office carries out a spoken-style command.
+    """A robot in an office carries out a command in natural language.
 
     ## Description
-    A wheelchair or a SPOT robot is told where to go ("go down the hallway, turn left at the
+    A wheelchair or a SPOT robot gets a command ("go down the hallway, turn left at the
     intersection and go in the first door on the right"). It has a 2D lidar and drifting odometry.
     Walls, doors, corners and corridors are found in each scan and remembered, and the command is
-    grounded on what was seen, never on the map. A judge, which knows the map, says clause by
-    clause whether the command was carried out.
+    grounded on what was seen, never on the floor plan. A judge, which knows the floor plan, says
+    clause by clause whether the command was carried out.
 
     ## Action Space
-    Shares of the largest speeds: `Box(-1, 1, (2,))`, forward and turn, for the wheelchair;
-    `Box(-1, 1, (3,))`, forward, left and turn, for SPOT. Values outside are clipped; NaN, infinity
-    and other shapes raise `ValueError`. Accelerations are bounded by the robot.
+    Shares of the largest speeds: `Box(-1, 1, (2,))`, forward speed and yaw rate, for the
+    wheelchair; `Box(-1, 1, (3,))`, forward speed, speed to the left and yaw rate, for SPOT. Values
+    outside are clipped; NaN, infinity and other shapes raise `ValueError`. Accelerations are
+    bounded by the robot.
 
     ## Observation Space
     A `Dict` of flat arrays, which `semnav_env.mind.observations.layout` declares; lengths in
     metres, features and goal in the robot frame (x forward, y left, origin at the centre of the
     footprint).
-    NAME_mask tells which rows count; `observations.table(observation, "walls")` gives those.
+    NAME_mask says which rows count; `observations.table(observation, "walls")` gives these rows.
 
     - walls, doors, corners, corridors: features of this scan; scan: its ranges, the lidar's range
-      where nothing returns; remembered_doors: those that count; bumps: walls bumped into unseen.
-    - command: as tokens, see `commands.encode`; clause: which one the robot believes to be under
-      way; odometry: believed pose and velocity; goal: where to drive now.
+      for a missing return; remembered_doors: remembered doors that count; bumps: walls that the
+      robot bumped into and that the lidar does not show.
+    - command: tokens, see `language.encode`; clause: the clause that the robot believes to be
+      active; odometry: believed pose and velocity; goal: the target to drive to now.
 
-    `observation="semantic"` has all but the scan; `"raw"` has scan, command, clause and odometry;
-    `"all"` has these all; `"truth"` is "semantic" without errors: features of an exact scan, the
-    true pose as odometry, world frame, and the goal grounded on the floor plan; `"command"` is for
-    who is to hear the command: no goal and no clause, but what is remembered. Others are made by an
-    object with `space(robot, lidar)` and `observe(moment)`, and by `EntryObservation(mode, extra)`.
+    `observation="semantic"` has all entries except the scan; `"raw"` has scan, command, clause and
+    odometry; `"all"` has all of these. `"truth"` is "semantic" without errors: features of an
+    exact scan, the true pose (world frame) as odometry, and the goal grounded on the floor plan.
+    `"command"` is for policies that hear the command: it has the robot's memory, but neither goal
+    nor clause. Other observations are made by an object with `space(robot, lidar)` and
+    `observe(moment)`, and by `EntryObservation(mode, extra)`.
 
     ## Rewards
-    The sum of the terms in `info["reward_terms"]`: progress along the shortest way, clauses done,
-    success, failure, contact, time. `AddedTerms` adds others; `terms(tick)` replaces them all.
+    The sum of the terms in `info["reward_terms"]`: progress along the shortest path, clauses done,
+    success, failure, contact, time. `AddedTerms` adds terms; an object with `terms(tick)` replaces
+    all of them.
 
     ## Starting State
     `reset(options=...)` takes "command" (text or `Command`), its "language", "implicit_steps" (or
     not), "pose" (x, y, heading; world frame) and "floor_plan", or "episode", an `Episode` or the id
-    of one of `episodes`; without options the task is asked. What is left open is drawn: a free pose
-    in a corridor looking along it, and a command that can be carried out from there.
+    of one of `episodes`; without options the task decides. Values that are not given are drawn: a
+    free pose in a corridor, facing along it, and a command that can be carried out from there.
 
     ## Episode End
     Terminates when the command is carried out, at a wrong door or turn, and after 10 s of standing
@@ -83,13 +87,14 @@ class SemNavEnv(GymnasiumEnv[Any]):
     robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a `FloorPlan`;
     "heidelberg_hallway" if it is not given.
     observation: a mode, see above, or an observation type. lidar: "tim561", "barbret" or a
-    `LidarSpec`; its rate is the control rate. odometry: how dead reckoning errs: "usual",
-    "exact", "wheelchair", "spot" or an `OdometrySettings`. extractor: its limits. corrects_drift:
-    whether walls that are seen again correct odometry. rules: what a door is, how words are
-    grounded and what success is, for robot and judge. rewards: `RewardWeights`, or an object with
-    `terms(tick)`. dynamics: what else moves. payload: a `Payload`, such as a person detector. task:
-    a command, a list of commands, or a `Task`. episodes: to draw from instead: the name of a split,
-    a file, or `Episode`s. max_seconds: of simulated time. render_mode: "rgb_array" or "human".
+    `LidarSpec`; its rate is the control rate. odometry: errors of dead reckoning: "usual", "exact",
+    "wheelchair", "spot" or an `OdometrySettings`. extractor: limits of the extractor.
+    corrects_drift: whether walls that are seen again correct odometry. rules: what a door is, how
+    words are grounded and what success is, for robot and judge. rewards: `RewardWeights`, or an
+    object with `terms(tick)`. dynamics: people, doors and furniture that move. payload: a
+    `Payload`, such as a person detector. task: a command, a list of commands, or a `Task`.
+    episodes: frozen episodes instead of a task: the name of a split, a file, or `Episode`s.
+    max_seconds: time limit of an episode, simulated seconds. render_mode: "rgb_array" or "human".
 
     ## Vectorized Environment, Version History, References
     `make_vec(..., vectorization_mode="vector_entry_point")`; v0 is the first; see CITATION.cff.
@@ -165,7 +170,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
 
         Raises:
             ValueError: the action is not finite or has another shape.
-            RuntimeError: before the first `reset`, or while another thread is in one of both.
+            RuntimeError: before the first `reset`, or while another thread is in `reset` or `step`.
         """
         self._require_reset("step")
         period = self.loop.drive(self._actions.twist(action))
@@ -177,26 +182,26 @@ class SemNavEnv(GymnasiumEnv[Any]):
         return self.observe(), sum(terms.values()), terminated, truncated, info
 
     def observe(self) -> Any:
-        """A fresh observation from where the robot is now.
+        """Return a new observation from the robot's present pose.
 
         Raises:
-            ValueError: an observation of somebody's own is not in its space.
+            ValueError: an observation of the user's own type is not in its space.
         """
         told = self.tokens, self.instruction, self.simulator.see, self.payload
         observation = self.observation_type.observe(Moment(self.tracker, *told))
-        if type(self.observation_type) is not EntryObservation:  # which looks at its own
+        if type(self.observation_type) is not EntryObservation:  # which checks its own entries
             check_observation(observation, self.observation_space)
         return observation
 
     def conclude(self, truncated: bool) -> dict[str, Any]:
-        """End the episode; returns what `info` says at its end."""
+        """End the episode, and return the entries of `info` that are added at its end."""
         ended = self.judge.conclude(truncated) | self.world.social()
         self.episode_source.note(ended["is_success"])
         ended |= {} if self.payload is None else self.payload.final_info()
         return ended | {"impossible": self.belief.impossible}
 
     def render(self) -> NDArray[np.uint8] | None:
-        """The picture, shape (height, width, 3), or a window in "human" mode.
+        """Return the picture, shape (height, width, 3), or show it in a window in "human" mode.
 
         Raises:
             RuntimeError: before the first `reset`.
@@ -210,18 +215,18 @@ class SemNavEnv(GymnasiumEnv[Any]):
 
     @property
     def belief(self) -> Belief:
-        """What the robot believes now."""
+        """The robot's present belief."""
         return self.tracker.belief
 
     @property
     def seconds(self) -> float:
-        """Simulated time since the start of the episode."""
+        """Simulated time since the start of the episode, seconds."""
         return self.simulator.steps / self.setup.control_hz
 
     def _enter(self, floor_plan: FloorPlan, setup: RobotSetup) -> None:
-        """Make all that belongs to one floor plan and one robot.
+        """Make the objects that depend on the floor plan and the robot.
 
-        A tracker that knows no floor plan is as good as a new one when it is told a command.
+        A tracker without a floor plan behaves like a new one after `begin`, so it may be kept.
         """
         may_stay = not setup.exact and self.__dict__.get("setup") == setup
         self.floor_plan, self.setup = floor_plan, setup

@@ -1,4 +1,4 @@
-"""What Gymnasium's tools ask of an environment, beyond `reset`, `step`, `render` and `close`."""
+"""Members of an environment for the tools of Gymnasium: its spec, its metadata and its keys."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ PLAYED_SPEED, PLAYED_YAW_RATE = 0.5, 0.4
 def takes_plain_settings(function: Callable[P, R]) -> Callable[P, R]:
     """Let a function take dictionaries of all fields for settings, see `plain_settings`.
 
-    An argument that it does not have is a `TypeError` that names the nearest one.
+    An unknown argument is a `TypeError` that names the most similar known one.
     """
     known = list(signature(function).parameters)[1:]
 
@@ -56,7 +56,7 @@ def takes_plain_settings(function: Callable[P, R]) -> Callable[P, R]:
 
 
 class GymnasiumEnv(gym.Env[ObservationT, NDArray[np.float32]], Generic[ObservationT]):
-    """An environment that says its time limit, its pictures and its keys.
+    """An environment with a time limit, render modes and keys.
 
     Args:
         control_hz: steps per second.
@@ -64,7 +64,7 @@ class GymnasiumEnv(gym.Env[ObservationT, NDArray[np.float32]], Generic[Observati
         render_mode: one of `metadata["render_modes"]`, or None.
 
     Attributes:
-        max_steps: after which an episode is truncated.
+        max_steps: number of steps after which an episode is truncated.
     """
 
     metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 15}  # noqa: RUF012
@@ -84,10 +84,10 @@ class GymnasiumEnv(gym.Env[ObservationT, NDArray[np.float32]], Generic[Observati
 
     @property
     def spec(self) -> EnvSpec | None:
-        """How `gymnasium.make` made it; with the time limit, for `TimeAwareObservation`.
+        """The spec from `gymnasium.make`, with the time limit, for `TimeAwareObservation`.
 
-        An environment made from it has the same limit once more, as a `TimeLimit`. To make one with
-        another `max_seconds`, add `max_episode_steps=-1`.
+        An environment made from the spec has the same limit again, as a `TimeLimit`. To make an
+        environment with another `max_seconds`, add `max_episode_steps=-1`.
         """
         return self._spec
 

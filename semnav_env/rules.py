@@ -1,7 +1,7 @@
-"""The rules by which a command is grounded and judged: every tolerance stands here, once.
+"""The rules by which a command is grounded and judged, with every tolerance.
 
-Robot and judge follow the same `Rules`, so what the robot counts as the second door is what the
-judge counts. docs/rules.md lists them.
+Robot and judge follow the same `Rules`, so both count the same door as the second one.
+docs/rules.md lists all rules.
 """
 
 from __future__ import annotations
@@ -18,45 +18,46 @@ from semnav_features.validation import check_kind
 
 @dataclass(frozen=True, slots=True)
 class GroundingRules:
-    """What the words of a command refer to, and from where a robot looks for it.
+    """Distances and angles by which a robot finds the referents of words, and looks for them.
 
     Attributes:
         stand_off: distance from a door at which the robot's centre stands before or behind it,
             metres: room for a body to face the door without touching it.
-        doorway_exit: distance that a robot drives out of a doorway before it turns, metres: so far
-            its body is clear of the jambs.
+        doorway_exit: distance that a robot drives out of a doorway before it turns, metres: its
+            body is then clear of the jambs.
         look_ahead: distance ahead of the robot at which the goal of a search lies, metres: well
             within a lidar's range.
         end_margin: distance before the end of a corridor at which the robot stops, metres: room to
             turn on the spot.
         lookout_distance: distance at which a lookout point counts as reached, metres: more than
-            the 0.4 m within which a driver takes a place as reached.
+            the 0.4 m within which an agent takes a place as reached.
         inspection_angle: heading error within which a direction counts as inspected, radians: less
             than half of the field of view of any lidar.
         door_offset: largest distance between a door and the side of a corridor that it lies on,
             metres: a deep frame or a recess.
         end_door_offset: largest distance between a door and the end of a corridor that it lies at,
             metres.
-        abreast_distance: doors that lie nearer to each other along a corridor are not one before
-            the other, metres: a third of a door's width.
-        behind_angle: doors whose directions differ by less are equally straight behind, radians.
-        corridor_width: the widest corridor, metres; what is wider has a wall behind the robot, as
-            a room has.
-        same_door_distance: doors whose midpoints are nearer are one door, metres: less than the
-            narrowest door.
-        other_wall_distance: a door farther behind the line of another door is in another wall,
-            metres: more than walls are thick.
-        leading_out_depth: free depth behind a door that leads out of a room, metres, at least: less
-            than any corridor is wide.
-        sightings_ratio: a door seen so many times less often than another one is doubtful.
-        doorway_depth: a robot stands in a doorway that lies no farther ahead than this, metres.
+        abreast_distance: two doors whose distance along a corridor is smaller than this have no
+            order, metres: a third of a door's width.
+        behind_angle: doors whose directions differ by less than this are equally straight behind,
+            radians.
+        corridor_width: the widest corridor, metres; a wider place is treated as a room, which has
+            a wall behind the robot.
+        same_door_distance: doors whose midpoints are nearer than this are one door, metres: less
+            than the narrowest door.
+        other_wall_distance: a door farther than this behind the line of another door is in another
+            wall, metres: more than the thickness of walls.
+        leading_out_depth: least free depth behind a door that leads out of a room, metres: less
+            than the width of any corridor.
+        sightings_ratio: a door is doubtful if another one was seen this many times as often.
+        doorway_depth: largest distance to a doorway ahead in which a robot stands, metres.
         opposite_door_distance: farthest door that is opposite a door, metres: across a wide hall.
         opposite_robot_distance: farthest door that is opposite the robot, metres: across a
             corridor.
-        across_distance: a robot so far out of a doorway has seen what is opposite it, metres: the
-            jambs no longer hide anything.
-        lookout_step: distance out of a doorway of the place to look across from, metres: beyond
-            `across_distance` by what a driver may stop short of.
+        across_distance: distance out of a doorway at which a robot has seen what is opposite it,
+            metres: the jambs no longer hide anything.
+        lookout_step: distance out of a doorway of the place from which to look across, metres:
+            more than `across_distance`, because an agent may stop short of it.
         arm_depth: distance inside the arm of a junction at which a turn ends, metres.
         junction_ahead: a junction counts while its far edge is farther ahead than this, metres.
         before_door: distance before the middle of a door at which "until the door" ends, so that
@@ -67,20 +68,20 @@ class GroundingRules:
             begins, so that this doorway does not count, metres: half of a door's width.
         faced_door_distance: a door no farther ahead than this is the one that a robot turns away
             from, metres.
-        way_door_depth: largest distance of a seen door from where it was pointed out, in the
+        way_door_depth: largest distance between a seen door and the told place of the door, in the
             direction through it, metres: odometry drifts.
         way_door_offset: the same distance along the wall, metres: less than from door to door.
-        way_door_angle: largest angle between a seen door and the one pointed out, radians.
-        way_door_passed: a robot farther behind a door faces another one, metres: less than half a
-            corridor.
-        places_ahead: number of places farther on that a robot on a known way heads for.
-        way_drift: largest distance beside a known way that the robot keeps to, metres: what
-            odometry drifts by.
-        straight_way_angle: a known way that turns by less leads straight on, radians.
+        way_door_angle: largest angle between a seen door and the told door, radians.
+        way_door_passed: a robot farther than this behind a door faces another one, metres: less
+            than half the width of a corridor.
+        places_ahead: number of places along a known way that the robot's target is ahead.
+        way_drift: largest offset from a known way that the robot keeps, metres: the drift of
+            odometry.
+        straight_way_angle: a known way that turns by less than this leads straight on, radians.
         jamb_margin: distance beside a seen jamb at which a crossing still counts for the robot, and
             behind the door that the robot must be, metres: seen jambs are not exact.
-        care: share of a success tolerance within which the robot itself takes a goal as reached,
-            so that it aims well inside what the judge accepts.
+        care: share of a success tolerance within which the robot itself takes a goal as reached;
+            the robot must be well inside the tolerance of the judge.
     """
 
     stand_off: Length = 0.9
@@ -130,39 +131,40 @@ class GroundingRules:
 
 @dataclass(frozen=True, slots=True)
 class SuccessRules:
-    """What the judge accepts; distances are of the robot's centre.
+    """Tolerances of the judge; distances are those of the robot's centre.
 
     Attributes:
         door_distance: largest distance from the place before a door of "go to the door", metres:
             less than to the place before the next door.
         door_heading: largest heading error there, radians.
-        junction_distance: largest distance from the place inside the arm after a turn, metres: all
-            of an arm's width.
-        turn_distance: largest distance from where a turn on the spot was begun, metres: a body
-            may need room to turn.
+        junction_distance: largest distance from the place inside the arm after a turn, metres: the
+            whole width of an arm.
+        turn_distance: largest distance from the pose at which a turn on the spot began, metres: a
+            body may need room to turn.
         turn_heading: largest heading error after a turn, radians: less than between two arms.
         turn_heading_min: least heading error that is accepted after a turn by some degrees,
-            radians: what odometry is off by; above it half of the angle, up to `turn_heading`.
+            radians: the error of odometry; for larger angles half of the angle, up to
+            `turn_heading`.
         corridor_distance: largest distance from the end of "follow the hallway", metres.
         way_distance: largest distance along the way from the end of a known way, metres.
         way_offset: largest distance beside the end of a known way, metres: odometry has drifted on
             a long way.
-        standstill_speed: below it the robot has stopped, as "stop" asks, m/s.
-        still_speed: below it and `still_yaw_rate` the robot stands still, which ends an episode
-            after a while, m/s.
-        still_yaw_rate: the same for turning, rad/s.
-        still_seconds: longest time of standing still, beyond what a clause asks for, seconds.
-        final_still_seconds: standing still for longer when time runs out is stopping short,
-            seconds.
-        search_rest_seconds: a robot that has not moved from its place for so long during a search
-            says that it has finished, seconds: longer than it takes to look all around and to plan
-            anew where no way leads on.
-        wrong_arm_depth: a robot farther inside an arm that the clause does not name has taken a
-            wrong turn, metres: its body has left the corridor.
-        missed_turn_distance: a robot farther behind the junction at which it was to turn has taken
-            a wrong turn, metres: twice `wrong_arm_depth`.
-        passed_arm_distance: an arm counts as passed, and is no wrong turn, if its far edge lies no
-            farther ahead than this of where the clause began, metres.
+        standstill_speed: speed below which the robot has carried out "stop", m/s.
+        still_speed: speed below which the robot stands still, if it also turns slower than
+            `still_yaw_rate`, m/s; standing still ends an episode after `still_seconds`.
+        still_yaw_rate: yaw rate below which the robot stands still, rad/s.
+        still_seconds: longest time of standing still, in addition to that of the clause, seconds.
+        final_still_seconds: a robot that has stood still for longer than this when time runs out
+            has stopped short, seconds.
+        search_rest_seconds: time without motion after which a robot that searches says that it has
+            finished, seconds: longer than it needs to look all around and to plan again where
+            there is no path.
+        wrong_arm_depth: a robot farther than this inside an arm that the clause does not name has
+            taken a wrong turn, metres: its body has left the corridor.
+        missed_turn_distance: a robot farther than this behind the junction at which it should turn
+            has taken a wrong turn, metres: twice `wrong_arm_depth`.
+        passed_arm_distance: an arm counts as passed, and not as a wrong turn, if its far edge lies
+            no farther than this ahead of the pose at which the clause began, metres.
     """
 
     door_distance: Length = 0.7
@@ -190,12 +192,12 @@ class SuccessRules:
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """Everything that robot and judge must agree on.
+    """All rules that robot and judge share.
 
     Attributes:
-        door: what counts as a door.
-        grounding: what the words of a command refer to.
-        success: what the judge accepts.
+        door: widths of what counts as a door.
+        grounding: distances and angles by which referents are found.
+        success: tolerances of the judge.
     """
 
     door: DoorRules = field(default_factory=DoorRules)
@@ -207,10 +209,10 @@ class Rules:
 
 
 def with_doors_of(rules: Rules, extractor: ExtractorSettings) -> tuple[Rules, ExtractorSettings]:
-    """Rules and extractor settings with the same doors, whichever of the two says what those are.
+    """Return rules and extractor settings with the same door rules, taken from the changed one.
 
     Raises:
-        ValueError: one of them is something else, or both say what a door is, and differently.
+        ValueError: an argument has another type, or both have changed door rules that differ.
     """
     check_kind("extractor", extractor, ExtractorSettings)
     check_kind("rules", rules, Rules)

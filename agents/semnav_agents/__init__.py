@@ -1,4 +1,4 @@
-"""Agents that drive: scripted, oracle, learned, and floors of benchmarks, behind one interface."""
+"""Agents: scripted, oracle, learned, and floors of benchmarks, behind one interface."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""The interface of all agents, and the loop that lets one drive an episode."""
+"""The interface of all agents, and the loop that drives an episode."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Observation = dict[str, NDArray[Any]]
 
 
 class Agent(Protocol):
-    """What drives a robot; any object with these members is an agent.
+    """Drives a robot; any object with these members is an agent.
 
     Attributes:
         observation: the `observation=` of the environment that the agent needs.
@@ -37,13 +37,13 @@ class Agent(Protocol):
         """
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
-        """The next action, in the environment's action space."""
+        """Choose the next action, in the environment's action space."""
         ...
 
 
 @runtime_checkable
 class PlanReader(Protocol):
-    """An agent that knows the floor plan, as the oracle does."""
+    """An agent that knows the floor plan, such as the oracle."""
 
     def read_plan(self, floor_plan: FloorPlan) -> None:
         """Learn the floor plan of the next episode, before `reset`."""
@@ -51,10 +51,10 @@ class PlanReader(Protocol):
 
 @runtime_checkable
 class GoalHolder(Protocol):
-    """An agent that finds the goal itself, and does not drive to that of the belief."""
+    """An agent that finds the goal itself and does not drive to the goal of the belief."""
 
     def own_goal(self) -> Pose:
-        """The goal that it drives to, odometry frame."""
+        """The goal to which the agent drives, odom frame."""
         ...
 
 

@@ -1,4 +1,4 @@
-"""Agents that somebody else wrote, found by module and class: `my_package.my_module:MyAgent`."""
+"""Agents of the user, found by module and class: `my_package.my_module:MyAgent`."""
 
 from __future__ import annotations
 

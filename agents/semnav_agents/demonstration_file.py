@@ -26,8 +26,8 @@ DATASET_NAME = re.compile(r"(?:[-_\w]+/)*[-_\w]+-v\d+")
 """The form of a dataset's name in Minari, such as "semnav/train-scripted-v0"."""
 
 COMPRESSION = {"compression": "gzip", "compression_opts": 4, "shuffle": True}
-"""How each array of an episode is stored. Bytes of like weight stand together, so that the many
-zeros of unused rows, and the exponents of ranges, take little room."""
+"""How each array of an episode is stored. Bytes of equal weight are stored together, so that the
+many zeros of unused rows, and the exponents of ranges, take little space."""
 
 RESOLUTION = 2.0**-10
 """Step of rounded observations, metres, radians, m/s and so on: about the millimetre in which a
@@ -37,10 +37,10 @@ TiM561 gives its ranges, and exact in binary, so that the last bits are zeros.""
 class DemonstrationFile:
     """A new Minari dataset; each demonstration is written at once.
 
-    It is a context manager. Until its end the dataset is in a folder beside, whose name ends in
-    `.part`, for a kill or a full disk may leave an HDF5 file that cannot be read. The end may also
-    be an error or an interruption between two demonstrations; the error then gets a note that says
-    where those so far are. Without any demonstration nothing is kept of it.
+    It is a context manager. Until its end the dataset is in a folder beside the target, whose name
+    ends in `.part`, because a kill or a full disk may leave an HDF5 file that cannot be read. The
+    end may also be an error or an interruption between two demonstrations; the error then gets a
+    note that says where those so far are. Without any demonstration nothing is kept of it.
 
     Attributes:
         folder: of the dataset, absolute.

@@ -1,4 +1,4 @@
-"""Demonstrations: what an agent does, with the observations that a learner is to have."""
+"""Demonstrations: the actions of an agent, with the observations for a learner."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Demonstration:
         terminations: shape (n,).
         truncations: shape (n,).
         success: whether the command was carried out.
-        infos: what is known beside each observation, by name, see `demonstrate`.
+        infos: values beside each observation, by name, see `demonstrate`.
     """
 
     episode: Episode
@@ -90,7 +90,7 @@ def demonstrate(
 
 
 def _info(env: SemNavEnv, step: Step | None, expert: Expert | None) -> dict[str, Any]:
-    """What is known of the state that an environment is in, in plain numbers."""
+    """The infos of the present state of an environment, in plain numbers."""
     period = env.judge.period
     known = {
         "pose": np.array(env.world.pose),
@@ -105,7 +105,7 @@ def _info(env: SemNavEnv, step: Step | None, expert: Expert | None) -> dict[str,
 
 
 def _stacked(rows: Sequence[Any]) -> dict[str, Any]:
-    """Dictionaries as one, with an array for each name, or again a dictionary."""
+    """Stack dictionaries into one, with an array, or again a dictionary, for each name."""
     return {
         name: _stacked([row[name] for row in rows])
         if isinstance(value, dict)

@@ -22,7 +22,7 @@ GOAL_DISTANCE = 1.0
 
 
 class DoorExit:
-    """Leads a robot that knows plan and pose from anywhere to the far side of a door.
+    """Leads a robot that knows plan and pose from any pose to the far side of a door.
 
     Args:
         plan: with everything solid.
@@ -44,7 +44,7 @@ class DoorExit:
 
     @staticmethod
     def named(plan: FloorPlan, door: str, start: Pose, robot: RobotSpec) -> DoorExit:
-        """To the far side of the door of that name, from where the robot starts.
+        """Make an exit through a named door, to the side away from the robot's start.
 
         Raises:
             KeyError: the plan has no such door.
@@ -52,7 +52,7 @@ class DoorExit:
         return DoorExit(plan, side_towards(plan, plan.door(door), start[:2]), robot)
 
     def twist(self, pose: Pose, velocity: Twist) -> Twist:
-        """The velocity that is wanted now.
+        """The velocity for the next control period.
 
         Args:
             pose: of the robot's centre, world frame.

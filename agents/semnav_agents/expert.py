@@ -1,4 +1,4 @@
-"""The oracle as a function of the environment's state, to label what a learner runs into."""
+"""The oracle as a function of the environment's state, to label the states of a learner."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ as often where the robot stands, m/s and rad/s."""
 
 
 class Expert:
-    """Says what the oracle would do from the state in which an environment is.
+    """Gives the action of the oracle for the present state of an environment.
 
         action = Expert().label(env.unwrapped)
 
-    It drives nothing and remembers no state: it plans anew from where the robot stands and as fast
-    as it moves, to the true goal of the clause under way, around what is solid in the floor plan.
-    So a state may be labelled whoever brought the robot there, as DAgger asks (Ross, Gordon and
-    Bagnell 2011), whatever `observation=` the environment has. The oracle follows one plan; its
-    actions are those of the expert where that plan is still the best, and else near them.
+    The expert does not drive and keeps no state. It plans a new path from the robot's pose and
+    velocity to the true goal of the active clause, around everything solid in the floor plan.
+    Therefore it can label the states of any driver, as DAgger requires (Ross, Gordon and Bagnell
+    2011), with any `observation=`. The oracle follows one path: where this path is still the best,
+    the expert's actions are those of the oracle, and elsewhere they are similar.
     """
 
     def __init__(self) -> None:
@@ -37,7 +37,7 @@ class Expert:
         self._doors: FloatArray
 
     def label(self, env: SemNavEnv) -> NDArray[np.float32]:
-        """The action that leads on from the state of an environment, which has been reset."""
+        """The action for the present state of an environment, which has been reset."""
         self._look_up(env.floor_plan)
         pose, velocity = env.world.pose, env.world.velocity
         doors = points_to_local(pose, self._doors).reshape(-1, 4)
@@ -57,7 +57,7 @@ class Expert:
 
 
 def true_goal(env: SemNavEnv) -> SeenGoal:
-    """Where the clause under way truly leads, on the floor plan, seen from the robot."""
+    """The true goal of the active clause, grounded on the floor plan, robot frame."""
     pose = env.world.pose
     goal = env.judge.follower.target(pose)
     door = door_of(goal)

@@ -1,8 +1,8 @@
-"""Floors of benchmarks: agents that do not listen, whose success others must be measured against.
+"""Floors of benchmarks: agents that do not hear the command, to compare other agents with.
 
 A table of agents says little without them: some commands are carried out by chance, and some by
-who drives well and guesses (Thomason et al. 2019, "Shifting the Baseline: Single Modality
-Performance on Visual Navigation & QA").
+good driving and guessing (Thomason et al. 2019, "Shifting the Baseline: Single Modality Performance
+on Visual Navigation & QA").
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from semnav_env.robots import RobotSpec
 from semnav_features.frames import FloatArray, Pose, points_to_local, points_to_parent
 
 HELD_STEPS = 15
-"""Steps for which a random action holds, one second: shorter ones cancel each other out."""
+"""Steps for which a random action holds, one second: shorter actions cancel each other out."""
 
 AHEAD = SeenGoal(GoalKind.SEEK, (3.0, 0.0, 0.0), None)
-"""Where a blind agent heads until it knows a door, metres."""
+"""Distance ahead to which a blind agent drives until it knows a door, metres."""
 
 PASSED_DISTANCE = 0.5
-"""A blind agent has passed its door when it is this far behind it, metres."""
+"""Distance behind its door at which a blind agent has passed it, metres."""
 
 
 class RandomAgent:
@@ -50,9 +50,9 @@ class RandomAgent:
 
 
 class BlindAgent:
-    """Drives as the scripted agent does, but through any door: it does not hear the command.
+    """Drives like the scripted agent, but through any door: it does not hear the command.
 
-    It takes one of the doors that it knows by chance, goes through, and takes the next one.
+    It chooses one of the doors that it knows at random, drives through, and chooses the next one.
     """
 
     observation = "all"
@@ -75,7 +75,7 @@ class BlindAgent:
         return self._driver.act({**observation, "goal": goal.values})
 
     def _chosen(self, observation: Observation, pose: Pose) -> FloatArray | None:
-        """The jambs of a door in the odometry frame, the farther side to the left of them."""
+        """The jambs of a chosen door, odom frame, with the far side to their left."""
         doors = table(observation, "remembered_doors").astype(np.float64)
         if not len(doors):
             return None

@@ -45,7 +45,7 @@ def pretrained_names() -> tuple[str, ...]:
 
 
 def agent_label(name: str) -> dict[str, object]:
-    """How the results of an agent name it: a trained one by its preset and its seed.
+    """The entries of the results that name an agent; a trained agent has a preset and a seed.
 
     Returns:
         "agent" and "training_seed", which is -1 for an agent that is not trained.
@@ -59,7 +59,7 @@ def agent_label(name: str) -> dict[str, object]:
 
 
 class LearnedAgent:
-    """A trained policy, without the noise with which it explored.
+    """An agent that runs a trained policy without exploration noise.
 
     Args:
         policy: from a compact observation to an action.

@@ -33,7 +33,7 @@ class OracleAgent:
         self._told = floor_plan
 
     def reset(self, info: dict[str, Any]) -> None:
-        """Begin an episode in the floor plan that was told before, or else in that of this name.
+        """Begin an episode in the floor plan of `read_plan`, or else in that named by `info`.
 
         Raises:
             FloorPlanError: no plan was told, and none has this name.

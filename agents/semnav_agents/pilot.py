@@ -31,13 +31,14 @@ STUCK_STEPS, BACKING_STEPS = 8, 12
 """Steps of pushing without moving after which a robot counts as stuck, and steps of backing out."""
 
 BACKING_SPEED, BACKING_YAW_RATE = 0.2, 0.3
-"""Velocity with which a stuck robot backs out, m/s and rad/s: slow, as it sees little behind it."""
+"""Velocity with which a stuck robot backs out, m/s and rad/s: slow, because it sees little
+behind."""
 
 SAME_DOOR_DISTANCE = 0.5
 """Distance of their middles below which two doors are the same, metres: a door is wider."""
 
 LOOKOUT_TOLERANCE = 0.4
-"""Distance at which a place to look from counts as reached, metres."""
+"""Distance at which a lookout point counts as reached, metres."""
 
 REACH_TOLERANCE, REACH_HEADING_TOLERANCE = 0.2, 0.15
 """Distance and heading error at which a place to stop at counts as reached, metres and radians."""
@@ -46,8 +47,8 @@ REACH_TOLERANCE, REACH_HEADING_TOLERANCE = 0.2, 0.15
 class Pilot:
     """Drives a robot to goals with the footprint-aware planner.
 
-    A robot that pushes without moving backs out the way it came and plans anew. On its way to a
-    goal it does not use other doors that it knows, so it takes no way around through the next room.
+    A robot that pushes without moving backs out along its own path and plans again. On its path to
+    a goal it does not use other doors that it knows, so it takes no detour through the next room.
 
     Args:
         robot: the body.
@@ -95,7 +96,7 @@ class Pilot:
         return self._action(*steering.twist)
 
     def _note(self, steering: Steering, points: FloatArray) -> None:
-        """Go on to the next pose of a way through a door, or to another way if this one failed."""
+        """Move on to the next pose through a door, or to another way if this one failed."""
         path = self.driver.path
         if path is not None and not path.complete:
             if self._exit.failed(points, path.end):
@@ -139,7 +140,7 @@ def _other_doors(doors: FloatArray, goal: SeenGoal) -> FloatArray:
 
 
 def _target(goal: SeenGoal, pose: Pose) -> DriveTarget:
-    """Where to drive for a goal, in the frame of `pose`."""
+    """The drive target for a goal, in the frame of `pose`."""
     place = compose(pose, goal.pose)
     if goal.kind is GoalKind.SEEK:
         return DriveTarget(place, LOOKOUT_TOLERANCE, None)

@@ -20,7 +20,7 @@ AgentSource: TypeAlias = str | Callable[[], Agent]
 
 
 def listener_drives() -> Agent:
-    """The agent without a planner: what "listener" hears is where "drive" drives to."""
+    """The agent without a planner: the grounding of "listener" with the policy of "drive"."""
     return HearingAgent.load("listener", LearnedAgent.load("drive"))
 
 
@@ -45,7 +45,8 @@ def make_agent(source: AgentSource) -> Agent:
             arguments.
 
     Raises:
-        ValueError: there is no such agent, or what was made is none; says what would be right.
+        ValueError: there is no such agent, or the object made is not an agent; names correct
+            values.
     """
     if not isinstance(source, str):
         if not callable(source):

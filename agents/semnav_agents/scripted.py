@@ -1,4 +1,4 @@
-"""The scripted agent: it uses the observation alone, which a real robot would have as well."""
+"""The scripted agent: it uses only the observation, which a real robot would have as well."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from semnav_features.lidar_spec import LidarSpec
 
 
 class ScriptedAgent:
-    """Drives to the observed goal, around obstacles that the lidar has hit or the body has touched.
+    """Drives to the observed goal around obstacles that the lidar or the body has hit.
 
     Goal, odometry and scan come from the observation; body and lidar from `reset`.
     """

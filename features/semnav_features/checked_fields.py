@@ -1,6 +1,6 @@
-"""Settings that are constructed or refused: the kind, the bounds and the choices of each field.
+"""Checks the fields of settings: the type, the bounds and the choices of each field.
 
-A settings class says in its annotations what its fields take, and calls `check_fields`:
+A settings class declares in its annotations what its fields take, and calls `check_fields`:
 
     @dataclass(frozen=True)
     class Walking:
@@ -30,8 +30,8 @@ class Bounds:
     """The least and the largest value of a number, both included.
 
     Attributes:
-        least: smallest value that is right.
-        most: largest value that is right.
+        least: smallest accepted value.
+        most: largest accepted value.
         unit: for messages; empty for none.
     """
 
@@ -45,13 +45,13 @@ class Bounds:
 
 @dataclass(frozen=True, slots=True)
 class OneOf:
-    """The texts that a field chooses from."""
+    """The texts that a field accepts."""
 
     choices: tuple[str, ...]
 
 
 ANY_NUMBER = Bounds(-1e6, 1e6)
-"""Bounds of a number for which none are said: finite, and of a size that sums do not lose."""
+"""Bounds of a number without declared bounds: finite, and not too large for exact sums."""
 
 Share: TypeAlias = Annotated[float, Bounds(0.0, 1.0)]
 """A probability, or a part of a whole."""
@@ -76,7 +76,7 @@ def check_fields(settings: object) -> None:
     and hashable.
 
     Raises:
-        ValueError: names the first such field, its value and what would be right.
+        ValueError: names the first such field, its value and correct values.
     """
     kind: type = type(settings)
     for name, hint in _hints(kind).items():
@@ -84,7 +84,7 @@ def check_fields(settings: object) -> None:
 
 
 def checked(name: str, value: object, hint: Any, limits: Bounds | OneOf = ANY_NUMBER) -> Any:
-    """A value as its annotation says it, such as a float for `Annotated[float, Bounds(0, 1)]`.
+    """Check a value by its annotation, such as `Annotated[float, Bounds(0, 1)]`, and convert it.
 
     Args:
         name: of the value, for the message.
@@ -93,7 +93,7 @@ def checked(name: str, value: object, hint: Any, limits: Bounds | OneOf = ANY_NU
         limits: of a number or a text.
 
     Raises:
-        ValueError: it is something else; says what would be right.
+        ValueError: it is something else; names correct values.
     """
     origin = get_origin(hint)
     if origin is Annotated:

@@ -1,8 +1,8 @@
 """The corridor around a pose: its axis, its sides, its openings and its end.
 
-Commands speak of corridors, so this is where walls become places. Rays to the left and to the right
-of the corridor's axis probe the scene; what a ray meets first is the corridor's side. Perceived
-(remembered) and true scenes are treated alike.
+Commands name corridors, so this module turns walls into places. Rays to the left and to the right
+of the corridor's axis probe the scene; the first thing that a ray meets is the corridor's side.
+Perceived (remembered) and true scenes are treated alike.
 """
 
 from __future__ import annotations
@@ -28,21 +28,21 @@ from semnav_features.kernels.side_openings import MAX_OPENINGS, OPENING
 from semnav_features.scene import Door, Scene, StillScene, known_ends, which_are_named
 
 MIN_CONTINUATION = 1.2
-"""A corridor goes on behind a junction if it is longer than this there, metres."""
+"""Least length of a corridor behind a junction for it to continue there, metres."""
 
 MAX_KNOWN_VIEWS = 256
-"""Number of corridors that are kept for a scene that never changes: a pose is asked for again while
-commands are tried and judged there."""
+"""Number of corridors that are kept for a scene that never changes: the same pose occurs again
+while commands are tried and judged there."""
 
 
 class SideOpening(NamedTuple):
-    """Where a side of the corridor gives way to another one.
+    """An opening in a side of the corridor.
 
     Attributes:
-        left: on the left side, else on the right.
+        left: whether it is on the left side, else on the right.
         near: where it begins along the axis, metres.
         far: where it ends along the axis, metres.
-        offset: how far the side lies from the axis there, metres, positive.
+        offset: distance of the side from the axis there, metres, positive.
     """
 
     left: bool
@@ -57,12 +57,12 @@ class SideOpening(NamedTuple):
 
 
 class Junction(NamedTuple):
-    """One or two facing openings, and whether the corridor goes on behind them.
+    """One or two facing openings, and whether the corridor continues behind them.
 
     Attributes:
         left: the opening to the left, if any.
         right: the opening to the right, if any.
-        ahead: whether the corridor goes on.
+        ahead: whether the corridor continues.
     """
 
     left: SideOpening | None
@@ -71,7 +71,7 @@ class Junction(NamedTuple):
 
     @property
     def openings(self) -> tuple[SideOpening, ...]:
-        """The openings there are."""
+        """The existing openings."""
         return tuple(side for side in (self.left, self.right) if side is not None)
 
     @property
@@ -88,7 +88,7 @@ class Junction(NamedTuple):
 
     @property
     def is_corner(self) -> bool:
-        """A bend: one way on, and not straight ahead."""
+        """Whether it is a bend: the corridor continues in one direction, and not straight ahead."""
         return not self.ahead and len(self.openings) == 1
 
 
@@ -115,11 +115,11 @@ class Corridor:
 
     @cached_property
     def junctions(self) -> tuple[Junction, ...]:
-        """In order along the axis, those behind the pose included."""
+        """The junctions in order along the axis, including those behind the pose."""
         return _junctions(_openings(self.openings), self.end)
 
     def along(self, point: Point) -> float:
-        """Where a point lies along the axis, metres."""
+        """Position of a point along the axis, metres."""
         return to_local(self.frame, point)[0]
 
     def place(self, along: float, offset: float = 0.0, heading_change: float = 0.0) -> Pose:
@@ -136,10 +136,10 @@ class Corridor:
         return float(side[probe]) if 0 <= probe < len(side) else math.inf
 
     def unseen(self, left: bool, start: float, stop: float, longer_than: float = 0.6) -> float:
-        """Where along [start, stop] the first stretch begins that may hide a door, metres.
+        """Position in [start, stop] at which the first part begins that may hide a door, metres.
 
-        Such a stretch is longer than `longer_than` metres, and neither a side nor an opening is
-        seen there. Infinite if there is none.
+        Such a part is longer than `longer_than` metres, and neither a side nor an opening is seen
+        there. The result is infinite if there is none.
         """
         side = (self.left if left else self.right).copy()
         for junction in self.junctions:
@@ -151,7 +151,7 @@ class Corridor:
 
 
 class CorridorAxis(NamedTuple):
-    """Where a corridor runs, without what lies along it; see `Corridor`."""
+    """The axis of a corridor, without its sides and openings; see `Corridor`."""
 
     frame: Pose
     half_width: float
@@ -163,7 +163,7 @@ def _probe(along: float) -> int:
 
 
 def corridor_at(scene: Scene, pose: Pose) -> Corridor:
-    """The corridor that a robot at `pose` looks along, in the scene's frame.
+    """The corridor that a robot at `pose` faces along, in the scene's frame.
 
     Args:
         scene: walls and doors. A door closes its gap here, as it is no opening of the corridor;
@@ -187,7 +187,7 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
 def corridor_along(
     walls: FloatArray, doors: FloatArray, named: NDArray[np.bool_], pose: Pose
 ) -> Corridor:
-    """As `corridor_at`, from arrays.
+    """Survey a corridor like `corridor_at`, from arrays.
 
     Args:
         walls: x and y of both ends, metres, shape (n, 4).
@@ -202,21 +202,21 @@ def corridor_along(
 
 
 def openings_at(scene: StillScene, pose: Pose) -> list[SideOpening]:
-    """The openings of the corridor that `corridor_at` would give, of which nothing is kept."""
+    """The openings of the corridor of `corridor_at`; nothing is cached."""
     return _openings(
         corridor_along(scene.wall_ends, scene.door_ends, scene.named_doors, pose).openings
     )
 
 
 def axis_at(scene: StillScene, pose: Pose) -> CorridorAxis:
-    """The axis of the corridor that `corridor_at` would give; it takes half the time."""
+    """The axis of the corridor of `corridor_at`, in half the time."""
     solid, axis = axis_heading(scene.wall_ends, scene.door_ends, scene.named_doors, pose)
     (x, y, heading), _, end, left, right, _ = axis_along(solid, *pose[:2], axis)
     return CorridorAxis((x, y, wrap_angle(heading)), 0.5 * (left + right), end)
 
 
 def doorway_at(scene: Scene, pose: Pose) -> Door | None:
-    """The door that a robot at `pose` stands in, looking through it; None if it does not."""
+    """The door in which a robot at `pose` stands and faces through; None if there is none."""
     for k, ends in enumerate(known_ends(scene.doors)):
         if stands_in(ends, *pose):
             return scene.doors[k]
@@ -228,7 +228,7 @@ def _openings(rows: np.ndarray) -> list[SideOpening]:
 
 
 def _junctions(openings: list[SideOpening], end: float) -> tuple[Junction, ...]:
-    """Facing openings belong to one junction."""
+    """Join openings into junctions; facing openings belong to one junction."""
     last = end - MIN_CONTINUATION
     lefts = [o for o in openings if o.left]
     rights = [o for o in openings if not o.left]

@@ -1,4 +1,4 @@
-"""Compressed data and files, decompressed within a budget: two kilobytes may hold gigabytes."""
+"""Decompresses data and files within a budget, because two kilobytes may hold gigabytes."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from semnav_features.reading import read_bytes
 
 
 class Decompressor(Protocol):
-    """What zlib, bz2, lz4 and zstd have for data that come in parts."""
+    """The interface of zlib, bz2, lz4 and zstd for data that come in parts."""
 
     eof: bool
     unused_data: bytes | None
 
     def decompress(self, data: bytes, max_length: int, /) -> bytes:
-        """At most so many bytes of the content of data."""
+        """At most a number of bytes of the content of data."""
         ...
 
 
@@ -30,7 +30,7 @@ def gzip_decompressor() -> Decompressor:
 def decompressed(
     data: bytes, most: int, decompressor: Callable[[], Decompressor] = gzip_decompressor
 ) -> bytes:
-    """The content of compressed data, of as many parts as there are.
+    """The content of compressed data, with all of its parts.
 
     Raises:
         ValueError: it has more than `most` bytes.

@@ -140,7 +140,7 @@ class Door:
 
 @dataclass(frozen=True, slots=True)
 class Corner:
-    """Where two walls meet, or where one may bend out of sight.
+    """A place where two walls meet, or where a wall may bend out of sight.
 
     Attributes:
         point: (x, y) in metres.
@@ -165,7 +165,7 @@ class CorridorProbe:
 
     @property
     def midpoint(self) -> Point:
-        """Where a robot would pass, (x, y) in metres."""
+        """The point at which a robot would pass, (x, y) in metres."""
         return middle_of(self.start, self.end)
 
 
@@ -205,13 +205,13 @@ class Arc:
 
 @dataclass(frozen=True, slots=True)
 class Rejection:
-    """A candidate that was turned down, and why; see `extract(..., explain=True)`.
+    """A rejected candidate with its reason; see `extract(..., explain=True)`.
 
     Attributes:
         kind: "wall", "door", "corner" or "corridor".
         start: one end of the candidate, (x, y) in metres.
         end: the other.
-        reason: which limit it failed, in words.
+        reason: the limit that it missed, in words.
     """
 
     kind: str

@@ -18,11 +18,11 @@ Twist: TypeAlias = tuple[float, float, float]
 """A velocity (forward m/s, left m/s, yaw rate rad/s) in the robot frame."""
 
 Contact: TypeAlias = tuple[float, float, float]
-"""Where a body touches something: (x, y) in metres, and the direction from there into the thing
-that is touched, radians; robot frame."""
+"""A point where a body touches something: (x, y) in metres, and the direction from there into the
+touched object, radians; robot frame."""
 
 MOST_CONTACTS = 9
-"""Of a control period's contacts only the first so many are looked at: substeps repeat them."""
+"""Largest number of contacts of a control period that are used: substeps repeat them."""
 
 FloatArray: TypeAlias = NDArray[np.float64]
 
@@ -61,12 +61,12 @@ def to_local(frame: Pose, point: Point) -> Point:
 
 
 def heading_between(start: tuple[float, ...], end: tuple[float, ...]) -> float:
-    """The heading from one place to another, radians."""
+    """The heading from one point to another, radians."""
     return math.atan2(end[1] - start[1], end[0] - start[0])
 
 
 def middle_of(start: tuple[float, ...], end: tuple[float, ...]) -> Point:
-    """The place half way between two places."""
+    """The point halfway between two points."""
     return (start[0] + end[0]) / 2, (start[1] + end[1]) / 2
 
 

@@ -1,4 +1,4 @@
-"""Ctrl-C and SIGTERM: an exception that says which it was, and moments in which they must wait."""
+"""Ctrl-C and SIGTERM as exceptions, and blocks of code in which they are delayed."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from types import FrameType
 from typing import NoReturn
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM)
-"""What asks a command to end."""
+"""Signals that ask a command to end."""
 
 
 class Terminated(KeyboardInterrupt):
-    """Somebody asked the process to end by SIGTERM, as a cluster does; it ends as after Ctrl-C."""
+    """The process got SIGTERM, as from a cluster; it ends as after Ctrl-C."""
 
 
 def interrupt(number: int, frame: FrameType | None) -> NoReturn:
@@ -22,10 +22,10 @@ def interrupt(number: int, frame: FrameType | None) -> NoReturn:
 
 
 def interruption_in(error: BaseException | None) -> KeyboardInterrupt | None:
-    """The interruption that an error is, or that it began with; None if there is none.
+    """The interruption that an error is, or that caused it; None if there is none.
 
-    Compiled code that is interrupted tells its caller only that something was raised, and so on up
-    through all callers: of the interruption are left the causes of the causes of a `SystemError`.
+    Compiled code that is interrupted reports to its caller only that something was raised, and so
+    on through all callers. The interruption is then a cause in the chain of a `SystemError`.
     """
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__cause__ or error.__context__
@@ -55,7 +55,7 @@ def uninterrupted() -> Iterator[None]:
 
 @contextmanager
 def for_this_process_alone() -> Iterator[None]:
-    """Keep Ctrl-C, which a terminal sends to all, from processes that are started in the block."""
+    """Keep Ctrl-C, which a terminal sends to all processes, from those started in the block."""
     if not hasattr(signal, "pthread_sigmask"):  # not on this system
         yield
         return

@@ -1,4 +1,4 @@
-"""Features that are made when somebody looks at them."""
+"""Features whose objects are made on first access."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _Item = TypeVar("_Item", covariant=True)
 
 
 class LazyItems(Sequence[_Item]):
-    """A tuple whose items are made at the first look at one of them.
+    """A tuple whose items are made at the first access to one of them.
 
     Making the objects of a scene takes longer than finding it in the scan. It equals the tuple of
     its items, and is pickled as that tuple.

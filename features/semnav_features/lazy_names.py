@@ -1,4 +1,4 @@
-"""Names of a package that are imported when somebody asks for them: few users need them."""
+"""Names of a package that are imported on first access, because few users need them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a lidar can do: its beams, its limits and its errors."""
+"""The specification of a lidar: its beams, its limits and its errors."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ SENSOR = np.dtype(
         )
     ]
 )
-"""How kernels read a `LidarSpec`: an array of shape (1,)."""
+"""The dtype of a `LidarSpec` for kernels: an array of shape (1,)."""
 
 
 @dataclass(frozen=True)
@@ -39,13 +39,14 @@ class LidarSpec:
 
     Attributes:
         name: as in `lidar_spec(name)`.
-        beams: how many.
+        beams: number of beams.
         angle_min: direction of beam 0 in the lidar frame, radians in [-pi, pi].
-        angle_increment: angle between beams, radians; the beams span at most a full turn. Less than
-            pi: the ray caster asks on which side of a segment's end a beam passes.
+        angle_increment: angle between beams, radians; the beams span at most a full turn. It is
+            less than pi, because the ray caster tests on which side of a segment's end a beam
+            passes.
         range_min: metres; anything measured closer reads -inf (REP 117: too close to tell).
         range_max: metres; anything at or beyond it reads +inf (REP 117: no return).
-        rate_hz: sweeps per second; sweep k is stamped k / rate_hz.
+        rate_hz: scans per second; scan k has the time k / rate_hz.
         sigma: standard deviation of the error of each range, metres.
         dropout: probability that a beam has no return and reads +inf.
         systematic: half the width of the uniform distribution of an offset that all ranges of an
@@ -53,7 +54,7 @@ class LidarSpec:
         source: where the numbers come from.
 
     Raises:
-        ValueError: a field of another kind or out of its bounds; names it.
+        ValueError: a field has another type or is out of its bounds; names it.
     """
 
     name: str
@@ -111,8 +112,8 @@ def _tables(
 ) -> tuple[FloatArray, CosinesSines]:
     """Directions of beams by rows and by columns.
 
-    Each is larger than all else that a robot's scan reads; of many robots in one process each would
-    push those of the others out of the cache.
+    Each table is larger than all other data of a robot's scan; tables of many robots in one process
+    would push each other out of the cache.
     """
     angles = _angles(beams + WIDTH, angle_min, angle_increment)
     cosines, sines = np.cos(angles), np.sin(angles)
@@ -120,7 +121,7 @@ def _tables(
 
 
 def most_beams(angle_increment: float) -> int:
-    """Beams of a full turn and one that repeats the first; the increment may have 32 bits only."""
+    """Beams of a full turn and one that repeats the first; the increment may have 32 bits."""
     return math.floor(math.tau / angle_increment * (1.0 + 1e-6)) + 1
 
 
@@ -149,7 +150,7 @@ LIDARS = {spec.name: spec for spec in (TIM561, BARBRET)}
 
 
 def lidar_spec(name_or_spec: str | LidarSpec) -> LidarSpec:
-    """The lidar of that name, or the spec itself.
+    """The lidar with a name, or the specification itself.
 
     Raises:
         ValueError: no such lidar; lists those there are.

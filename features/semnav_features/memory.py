@@ -28,11 +28,12 @@ if TYPE_CHECKING:
 ENDS = ("start_x", "start_y", "end_x", "end_y")
 
 MAX_WALLS, MAX_DOORS = 512, 64
-"""Room for walls and doors; when it is full, a new one replaces the one that was seen least."""
+"""Capacity for walls and doors; when it is full, a new one replaces the one with fewest
+sightings."""
 
 
 class SceneMemory:
-    """Walls and doors that were seen so far, in one fixed frame, such as that of odometry.
+    """Walls and doors that were seen so far, in one fixed frame, such as the odom frame.
 
     A wall counts from its second sighting until scans pass through it (`kernels.pass_through`). A
     door counts while its sightings, by their confidence, outweigh the scans that looked at its
@@ -41,7 +42,7 @@ class SceneMemory:
     likelier one counts.
 
     Args:
-        door_rules: how wide a door is.
+        door_rules: widths of doors.
     """
 
     def __init__(self, door_rules: DoorRules = DoorRules()) -> None:
@@ -65,7 +66,7 @@ class SceneMemory:
             self._state[name] = 0
 
     def copy(self) -> SceneMemory:
-        """What is remembered now, to be read; it has no room for more."""
+        """A copy of the present memory for reading; it has no capacity for more."""
         copy = object.__new__(SceneMemory)
         copy._state = self._state.copy()
         walls, doors = (int(self._state[name][0]) for name in ("walls", "doors"))
@@ -95,10 +96,10 @@ class SceneMemory:
         remember(walls, doors, counts, ranges, *angles, lidar_pose, self.arrays)
 
     def see(self, scene: Scene, scan: Scan, lidar_pose: Pose) -> None:
-        """Add a scan of which the scene is at hand, such as one of a log; as `update`.
+        """Add a scan with its scene, such as one of a log; see `update`.
 
         Args:
-            scene: what was extracted from the scan, lidar frame.
+            scene: the scene of the scan, lidar frame.
             scan: the scan.
             lidar_pose: of the lidar in the memory's frame.
         """
@@ -116,7 +117,7 @@ class SceneMemory:
         self.update(walls, doors, counts, ranges, angles, lidar_pose)
 
     def locate(self, scene: Scene, lidar_pose: Pose) -> Pose:
-        """The pose of a lidar, corrected by the walls that it sees again (`kernels.drift`).
+        """Correct the pose of a lidar by the walls that it sees again (`kernels.drift`).
 
         Call it before `see`.
 
@@ -131,7 +132,7 @@ class SceneMemory:
 
     @property
     def size(self) -> tuple[int, int]:
-        """How many walls and doors count."""
+        """Number of walls and of doors that count."""
         return how_many_count(*self.arrays)
 
     def scene(self) -> Scene:

@@ -1,4 +1,4 @@
-"""Keeps a second thread out of an object whose arrays compiled code reads and writes."""
+"""Excludes a second thread from an object whose arrays compiled code reads and writes."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ Method = TypeVar("Method", bound=Callable[..., Any])
 class ThreadDoor:
     """Lets one thread in at a time: `enter(False)` says whether it did, then `leave()`.
 
-    The thread that is inside may enter again, for Ctrl-C may come before it could leave. A copy is
-    a door of its own, with nobody inside.
+    The thread that is inside may enter again, because Ctrl-C may come before it could leave. A copy
+    is independent and has no thread inside.
     """
 
     __slots__ = ("enter", "leave")

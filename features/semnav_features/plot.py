@@ -29,7 +29,7 @@ _TICK = 0.2
 
 
 def draw_scene(ax: Axes, scan: Scan, scene: Scene) -> None:
-    """Draw a scan and what was made of it, the scanner at the origin.
+    """Draw a scan and its scene, with the scanner at the origin.
 
     A wall's tick stands on its free side, to the left of its direction; a door's number is its
     width in metres. A cross marks the centre of an arc.
@@ -176,7 +176,7 @@ def _polyline(ends: Sequence[tuple[Point, Point]]) -> tuple[FloatArray, FloatArr
 
 
 def _frame(ax: Axes, points: FloatArray, scene: Scene) -> None:
-    """Show the scene and the scanner, not what lies far behind."""
+    """Limit the axes to the scene and the scanner."""
     shown = [end for w in scene.walls for end in (w.start, w.end)]
     shown += [end for d in scene.doors for end in (d.start, d.end)]
     shown += [end for a in scene.arcs for end in (a.start, a.end)]

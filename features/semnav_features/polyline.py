@@ -34,8 +34,9 @@ def polylines(
     Takes some milliseconds for 360 beams, and up to a second for a thousand in one smooth curve.
 
     Args:
-        scan: one sweep of a lidar.
-        vertices: of all polylines together; fewer only where more do not improve the fit.
+        scan: a scan of a lidar.
+        vertices: number of vertices of all polylines together; fewer only where more do not
+            improve the fit.
         missed: residual that counts for a beam that meets no line, metres; a smaller one leaves
             more beams out.
         link: largest distance between neighbouring points that a line may join, metres; no line
@@ -65,7 +66,7 @@ def polylines(
 
 
 def _linked(beams: NDArray[np.int64], points: FloatArray, link: float) -> NDArray[np.int64]:
-    """Where groups of linked neighbours begin, and the number of points at the end."""
+    """First indices of groups of linked neighbours, and the number of points as the last entry."""
     distance = np.hypot(*np.diff(points, axis=0).T)
     broken = (np.diff(beams) > 1) | (distance > link)
     return np.concatenate(([0], np.flatnonzero(broken) + 1, [len(beams)])).astype(np.int64)

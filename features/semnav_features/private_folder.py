@@ -1,4 +1,4 @@
-"""Folders in which nobody but the user can put anything."""
+"""Folders to which only the user can write."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
 def make_private(folder: Path) -> None:
     """Make a folder that only the user can write to, or check that the one there is such a folder.
 
-    Nobody else may be able to put another folder in its place either: the folders above it must
-    belong to the user or to the system, and be closed to others. Those that are missing are made.
+    Other users must not be able to replace the folder either: the folders above it must belong to
+    the user or to the system, and be closed to others. Missing folders are made.
 
     Args:
         folder: an absolute path.

@@ -1,4 +1,4 @@
-"""Whole files read within a budget of bytes, and never from what does not end."""
+"""Reads whole files within a budget of bytes, and refuses inputs without an end."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WHOLE_FILE = 20_000_000
 def check_file(
     path: str | os.PathLike[str], most: int = WHOLE_FILE, error: type[ValueError] = ValueError
 ) -> None:
-    """Refuse what is no regular file, such as a pipe that never ends, or a file that is too large.
+    """Refuse a file that is too large or not regular, such as a pipe without an end.
 
     Args:
         path: of the file.
@@ -22,7 +22,7 @@ def check_file(
 
     Raises:
         ValueError: of the kind `error`; names the file and what would be right.
-        OSError: there is no such file, or it may not be looked at.
+        OSError: there is no such file, or it must not be read.
     """
     status = os.stat(path)
     if stat.S_ISDIR(status.st_mode):

@@ -1,4 +1,4 @@
-"""What counts as a door: one rule for the extractor, for a floor plan and for the judge."""
+"""Widths of what counts as a door, for the extractor, for floor plans and for the judge."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from semnav_features.checked_fields import Length, check_fields, require_order
 
 @dataclass(frozen=True, slots=True)
 class DoorRules:
-    """How wide the opening between two jambs is that counts as a door.
+    """Width of an opening between two jambs that counts as a door.
 
     Attributes:
-        width_min: narrowest door, metres. Barbret 2021, section 3.1, has 0.8; room doors that were
-            measured are 0.76 to 0.83 clear.
+        width_min: narrowest door, metres. Barbret 2021, section 3.1, has 0.8; measured room
+            doors have a clear width of 0.76 to 0.83.
         width_max: widest door, metres (Barbret 2021, section 3.1).
         width_tolerance: added to both limits, metres: the error of a measured width.
 
     Raises:
-        ValueError: a width is no number, negative or too large, or the narrowest door exceeds the
-            widest.
+        ValueError: a width is not a number, negative or too large, or the narrowest door exceeds
+        the widest.
     """
 
     width_min: Length = 0.7

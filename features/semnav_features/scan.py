@@ -1,4 +1,4 @@
-"""One sweep of a 2D lidar."""
+"""A scan of a 2D lidar."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from semnav_features.frames import FloatArray
 from semnav_features.validation import finite_float
 
 _MAX_FIRST_ANGLE = 8.0 * math.pi
-"""A first direction beyond this is in degrees, not a heading that was not wrapped; radians."""
+"""Largest accepted first direction, radians; a larger number must be degrees."""
 
 MAX_RANGE = 1000.0
 """Longest range that any lidar of a robot has, metres."""
 
 _NO_LENGTH = 1000.0 * MAX_RANGE
-"""What is as long as this means no return, in metres and in millimetres."""
+"""Range from which on a number means a missing return, in metres and in millimetres."""
 
 _MAX_SWEEP = 4.0 * math.pi
-"""More than any scanner sweeps, though some repeat a few beams of the circle; radians."""
+"""Largest accepted angle of a scan, radians; some scanners repeat a few beams of the circle."""
 
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """One sweep of a 2D lidar, beams counter-clockwise, in the lidar frame.
+    """A scan of a 2D lidar, beams counter-clockwise, in the lidar frame.
 
     NaN, infinity, zero, negative values and anything at or beyond `range_max` or below
-    `range_min` mean "no return" (REP 117, and what drivers send in the wild).
+    `range_min` are missing returns (REP 117, and the practice of drivers).
 
-    A negative increment says that the scanner swept clockwise from `angle_min`; the order of the
+    A negative increment says that the scanner turned clockwise from `angle_min`; the order of the
     beams is then reversed, so that the attributes always run counter-clockwise.
 
     Attributes:
@@ -91,7 +91,7 @@ class Scan:
 
     @property
     def valid(self) -> np.ndarray:
-        """Which beams returned a distance, shape (n,), bool."""
+        """Mask of the beams that returned a distance, shape (n,), bool."""
         with np.errstate(invalid="ignore"):
             beyond_least = (self.ranges >= self.range_min) & (self.ranges > 0.0)
             return beyond_least & (self.ranges < self.range_max)
@@ -170,7 +170,7 @@ def typical_length(ranges: FloatArray) -> float:
 
 
 def plain_codes(ranges: ArrayLike, range_min: float, range_max: float) -> FloatArray:
-    """A copy of ranges in which all that is no return is written in one way (REP 117).
+    """A copy of ranges in which all missing returns have the codes of REP 117.
 
     Args:
         ranges: metres, shape (n,).

@@ -50,7 +50,7 @@ _WallOrDoor = TypeVar("_WallOrDoor", bound=Wall | Door, covariant=True)
 
 
 class _MadeFromEnds(Sequence[_WallOrDoor]):
-    """Walls or doors that are made when asked for; it equals the tuple of them."""
+    """Walls or doors that are made on first access; it equals the tuple of them."""
 
     ends: FloatArray
 
@@ -68,7 +68,7 @@ class _MadeFromEnds(Sequence[_WallOrDoor]):
 
 
 class PlainWalls(_MadeFromEnds[Wall]):
-    """Walls of which only the ends are known; a `Wall` is made when it is asked for.
+    """Walls of which only the ends are stored; a `Wall` is made on access.
 
     A memory and a floor plan hold hundreds of walls, and grounding needs only their ends.
 
@@ -93,11 +93,11 @@ class PlainWalls(_MadeFromEnds[Wall]):
 
 
 class RememberedDoors(_MadeFromEnds[Door]):
-    """Doors as a memory holds them; a `Door` is made when it is asked for, and kept.
+    """Doors of a memory; a `Door` is made on first access, and kept.
 
     Args:
         ends: x and y of start and end, metres, shape (n, 4); not copied.
-        beliefs: log-odds that it is a door, and how often it was seen, shape (n, 2).
+        beliefs: log-odds of being a door, and number of sightings, shape (n, 2).
     """
 
     def __init__(self, ends: FloatArray, beliefs: FloatArray) -> None:
@@ -127,7 +127,7 @@ class Scene:
     """Walls, doors, corners, corridors and arcs in one frame, metres.
 
     A scene from `extract` is in the frame of the scan; `placed` and `seen_from` change frames.
-    `rejections` are the candidates that were turned down, if they were asked for.
+    `rejections` are the rejected candidates, if they were requested.
     """
 
     walls: Sequence[Wall] = ()
@@ -157,7 +157,7 @@ class Scene:
 
 
 class StillScene(Scene):
-    """A scene that never changes, as that of a floor plan; what is asked for often is kept."""
+    """A scene that never changes, such as that of a floor plan; frequent results are kept."""
 
     @cached_property
     def wall_ends(self) -> FloatArray:
@@ -171,12 +171,12 @@ class StillScene(Scene):
 
     @cached_property
     def named_doors(self) -> NDArray[np.bool_]:
-        """Which doors have a name."""
+        """The doors that have a name."""
         return which_are_named(self.doors)
 
     @cached_property
     def known_views(self) -> dict[Pose, Any]:
-        """What was last found from a pose."""
+        """Corridors that were last found from a pose."""
         return {}
 
     @cached_property
@@ -186,7 +186,7 @@ class StillScene(Scene):
 
 
 def _moved(item: _Item, move: Callable[[Point], Point], *points: str) -> _Item:
-    """The item with these of its points moved; a point that is None stays so."""
+    """The item with some of its points moved; a point that is None stays None."""
     places: dict[str, Any] = {
         name: move(point) for name in points if (point := getattr(item, name)) is not None
     }
@@ -202,13 +202,13 @@ def ends_of(items: Iterable[Wall | Door]) -> FloatArray:
 
 
 def known_ends(items: Iterable[Wall | Door]) -> FloatArray:
-    """As `ends_of`, to be read only: an array that the walls or doors may own, not a copy."""
+    """Like `ends_of`, for reading only: an array that the walls or doors may own, not a copy."""
     ends: FloatArray | None = getattr(items, "ends", None)
     return ends_of(items) if ends is None else ends
 
 
 def which_are_named(doors: Sequence[Door]) -> NDArray[np.bool_]:
-    """Which doors have a name, shape (n,): those of a floor plan."""
+    """Mask of the doors with a name, shape (n,): those of a floor plan."""
     if type(doors) is RememberedDoors:
         return np.zeros(len(doors.ends), np.bool_)
     return np.array([door.name is not None for door in doors], dtype=np.bool_)

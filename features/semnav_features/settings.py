@@ -25,31 +25,31 @@ _STRATEGIES: dict[str, type[IntEnum]] = {
     "breakpoint_rule": BreakpointRule,
     "segmentation": Segmentation,
 }
-"""What the fields that hold a name choose from; the kernels get the number behind the name."""
+"""The choices of the fields that hold a name; the kernels get the number of the name."""
 
 _DOOR = DoorRules()
 
 
 @dataclass(frozen=True)
 class ExtractorSettings:
-    """Limits of the chain from a scan to a scene. Lengths in metres, angles in radians.
+    """Limits of the extractor. Lengths in metres, angles in radians.
 
     "Thesis" is Barbret 2021. Defaults without a source were chosen by measurement on simulated
     office corridors with sigma 20 mm.
 
     Attributes:
-        rupture_range: a longer range counts as no return, metres (thesis (2.1): 6; the
-            TiM561 reaches 10, and doors and junctions beyond 6 m are worth having).
+        rupture_range: a longer range counts as a missing return, metres (thesis (2.1): 6; the
+            TiM561 reaches 10, and doors and junctions beyond 6 m are useful).
         sigma: standard deviation of a range, metres (TiM561 data sheet: 0.02).
         veil_angle: removes mixed pixels, which are beams that ended between two surfaces: there
             the lines to both neighbours are met at less than this angle, radians. 0 keeps all;
             5 to 10 degrees remove the mixed pixels at edges and no wall (`kernels.filters`).
-        median_beams: number of beams on either side over which a range is the median, where that
-            moves no edge; 0 takes it as it is.
-        breakpoint_rule: how far apart neighbouring points may be: "constant", "borges_aldon",
-            "certad", "dietmayer", "santos", "lee" or "weerakoon"; the equations are in
-            `kernels.breakpoints`. "certad" is the rule of the thesis (2.3), "borges_aldon", made
-            the same for both directions of the sweep.
+        median_beams: number of beams on either side for a median filter of the ranges, where it
+            moves no edge; 0 switches it off.
+        breakpoint_rule: rule for the largest distance of neighbouring points: "constant",
+            "borges_aldon", "certad", "dietmayer", "santos", "lee" or "weerakoon"; the equations are
+            in `kernels.breakpoints`. "certad" is the rule of the thesis (2.3), "borges_aldon", made
+            the same for both directions of the scan.
         breakpoint_angle: lambda of the adaptive breakpoint, the flattest incidence at which
             neighbouring points are still joined, radians (thesis (2.3): 10 degrees, which loses
             the far part of a corridor's walls). Not read by "constant", "dietmayer" and "lee".
@@ -67,8 +67,8 @@ class ExtractorSettings:
         wall_length: shortest wall, metres.
         merge_gap: widest gap across which two collinear walls are joined, metres; less than any
             gap that a robot could pass.
-        merge_offset: largest step between two walls that are taken for one, metres.
-        robust_fit: fit every line once more with less weight on points that are off it.
+        merge_offset: largest step between two walls that are joined, metres.
+        robust_fit: fit every line once more with less weight on points away from it.
         confidence: tolerated errors of a fitted line, in standard deviations.
         door_width_min: narrowest door, metres, see `rules.DoorRules`.
         door_width_max: widest door, metres, see `rules.DoorRules`.
@@ -79,8 +79,8 @@ class ExtractorSettings:
             centimetres off need more).
         door_point_tolerance: largest distance of the jambs from the line of the wall beyond the
             uncertainty of the fit, metres.
-        door_wall_gap: how far before the jamb a supporting wall may end, metres; door frames
-            break the fit.
+        door_wall_gap: largest distance before the jamb at which a supporting wall may end, metres;
+            door frames interrupt the fit.
         door_depth: beams through the opening reach this far beyond its chord, metres. The distance
             is measured along the beam and not across the chord, so that an open leaf seen through
             a grazing gap does not hide the door.
@@ -90,10 +90,11 @@ class ExtractorSettings:
         door_shadow: if a beam beside a jamb ends this far in front of the chord, metres, the jamb
             is only the edge of a shadow.
         door_beams: fewest beams through an opening.
-        door_confidence_min: least confidence of a door, 0 to 1: higher is fewer false doors and
-            more missed ones. At 0.6 the F1 in simulated offices full of furniture is highest.
+        door_confidence_min: least confidence of a door, 0 to 1: a higher value gives fewer false
+            doors and more missed ones. At 0.6 the F1 in simulated offices full of furniture is
+            highest.
         one_sided_doors: accept doors with a wall in line on one side only, or on none.
-        arcs: look for columns and curved walls.
+        arcs: whether to find columns and curved walls.
         arc_radius_min: thinnest column, metres; thinner ones are legs of chairs and people.
         arc_radius_max: flattest curved wall, metres.
         arc_extent_min: smallest angle that an arc spans about its centre, radians.
@@ -106,9 +107,10 @@ class ExtractorSettings:
         corner_gap: walls are extended this far to their corner, metres; their ends may be twice
             as far apart.
         corner_fuse: corners closer together than this are one, metres.
-        corridor_probe: how far a corner is probed for an opposite wall, metres (thesis 3.3).
+        corridor_probe: length of a probe from a corner to an opposite wall, metres (thesis 3.3).
         corridor_wall_slack: a probed wall may end this far beside the probe, metres.
-        corridor_angle_tolerance: how far from square a probe may meet a wall, radians.
+        corridor_angle_tolerance: largest deviation from a right angle between probe and wall,
+            radians.
         corridor_half_width: least distance from the midpoint to its corner, metres (thesis
             4.8: 0.3).
         corridor_distance_min: least distance from the scanner to a midpoint, metres (thesis
@@ -180,11 +182,11 @@ class ExtractorSettings:
 
     @property
     def door_rules(self) -> DoorRules:
-        """What counts as a door by these settings."""
+        """The door rules of these settings."""
         return DoorRules(self.door_width_min, self.door_width_max, self.door_width_tolerance)
 
     def with_doors(self, rules: DoorRules) -> ExtractorSettings:
-        """The same settings with other doors."""
+        """The same settings with other door rules."""
         return replace(
             self,
             door_width_min=rules.width_min,
@@ -200,7 +202,7 @@ class ExtractorSettings:
 
 
 def _recorded(name: str, value: float | str) -> float:
-    """What the record holds for a value: of a strategy its number."""
+    """The value of a field in the record; for a strategy its number."""
     return value if not isinstance(value, str) else _STRATEGIES[name][value.upper()]
 
 

@@ -1,4 +1,4 @@
-"""One writer at a time of what takes long to write."""
+"""A lock for files and folders that take long to write: one writer at a time."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ def sole_writer(target: Path) -> Iterator[None]:
         with sole_writer(folder):
             train(folder)
 
-    The lock is an empty file beside it, `.NAME.lock`. One that a killed writer has left holds
-    nobody up. Where the file system or the operating system has no locks, nobody is refused.
+    The lock is an empty file beside it, `.NAME.lock`. A lock that a
+    killed writer has left has no effect. Without locks of the file system, nobody is refused.
 
     Raises:
         BlockingIOError: somebody else writes it; names it.

@@ -6,7 +6,7 @@ from enum import IntEnum
 
 
 class BreakpointRule(IntEnum):
-    """How far apart two neighbouring points may be and still belong together.
+    """The rule for the largest distance of two neighbouring points that are joined.
 
     The equations are in `semnav_features.kernels.breakpoints`.
     """
@@ -21,7 +21,7 @@ class BreakpointRule(IntEnum):
 
 
 class Segmentation(IntEnum):
-    """How a connected group of points is cut into straight pieces."""
+    """Settings for the cut of a connected group of points into straight pieces."""
 
     END_POINT_FIT = 0
     DYNAMIC = 1
@@ -29,5 +29,5 @@ class Segmentation(IntEnum):
 
 
 def strategy_names(strategies: type[IntEnum]) -> tuple[str, ...]:
-    """What the strategies are called in the settings."""
+    """The names of the strategies in the settings."""
     return tuple(strategy.name.lower() for strategy in strategies)

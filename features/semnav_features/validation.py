@@ -1,4 +1,4 @@
-"""Values that are looked at before anything is made of them, and the words of a refusal."""
+"""Checks of values before use, and the words of their errors."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def require(holds: object, name: str, value: object, right: str) -> None:
     """Refuse a value if a condition on it does not hold.
 
     Args:
-        holds: whether the value is right.
-        name: of the value.
-        value: for the message.
-        right: what would be right, in words that follow "it must be".
+        holds: whether the value is correct.
+        name: name of the value.
+        value: the value, for the message.
+        right: correct values, in words that follow "it must be".
 
     Raises:
         ValueError: names the value and says what would be right.
@@ -32,7 +32,7 @@ def require(holds: object, name: str, value: object, right: str) -> None:
 
 
 def shown(value: object) -> str:
-    """A value for a message, which it never fills."""
+    """A value for a message, shortened if it is long."""
     try:
         return clipped(repr(value))
     except ValueError:  # Python writes no integer of more than some thousand digits
@@ -45,7 +45,7 @@ def clipped(text: str, most: int = SHOWN) -> str:
 
 
 def check_kind(name: str, value: object, kind: type) -> None:
-    """Refuse a value that is of another kind.
+    """Refuse a value of another type.
 
     Args:
         name: of the value.
@@ -60,7 +60,7 @@ def check_kind(name: str, value: object, kind: type) -> None:
 
 
 def by_name(what: str, value: object, kind: type[T], known: Mapping[str, T]) -> T:
-    """A value itself, or the known one that it names.
+    """The value itself, or the known value that it names.
 
     Args:
         what: such values are, for the message.
@@ -79,7 +79,7 @@ def by_name(what: str, value: object, kind: type[T], known: Mapping[str, T]) -> 
 
 
 def check_count(name: str, value: object) -> None:
-    """Refuse what is no whole number of at least 1.
+    """Refuse a value that is not a whole number of at least 1.
 
     Raises:
         ValueError: says what would be right.

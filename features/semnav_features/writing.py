@@ -1,10 +1,10 @@
-"""The one way in which files are written: at any moment there is the old one or the whole new one.
+"""Writes files so that at any moment there is the old file or the complete new one.
 
-What is written goes to a part beside the file, which takes its place when it is complete and on the
-disk. A full disk, an error, an interruption or a kill leaves the old file as it was. The part has a
-name that nobody else can know before, so two writers of one file never write into one part, and no
-link waits in its place; the file is a whole one of the writer that was done last. What takes long
-to write has one writer at a time (`sole_writer`).
+Data go to a partial file beside the target, which replaces the target when it is complete and on
+the disk. A full disk, an error, an interruption or a kill leaves the old file as it was. The
+partial file has a name that cannot be predicted. Therefore two writers never share a partial file,
+and no symbolic link can wait in its place; the file is the complete one of the writer that finished
+last. Files that take long to write have one writer at a time (`sole_writer`).
 """
 
 from __future__ import annotations
@@ -20,12 +20,13 @@ from pathlib import Path
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Where to write what is to replace a file, of the same suffix; put in place at the end.
+    """Give a partial file with the same suffix, which replaces the target at the end.
 
         with replacing("plan.png") as part:
             figure.savefig(part)
 
-    Missing folders are made. What is no regular file, such as a pipe, is written directly.
+    Missing folders are made. A target that is not a regular file, such as a pipe, is written
+    directly.
 
     Raises:
         OSError: it cannot be written; names the file.
@@ -48,12 +49,12 @@ def write_file(path: str | os.PathLike[str], content: bytes | str) -> None:
 
 
 def writing_mode(part: Path) -> str:
-    """The mode in which to open a part: a new file, unless it is no regular one, such as a pipe."""
+    """The mode in which to open a partial file: a new file, or for a pipe the existing one."""
     return "wb" if part.exists() and not part.is_file() else "xb"
 
 
 def target_of(path: str | os.PathLike[str]) -> Path:
-    """The file that is written for a path: where a link leads, unless somebody else has laid it.
+    """The file that is written for a path; a symbolic link is followed if it may be trusted.
 
     Raises:
         PermissionError: it is the link of another user, who may want it to be written there.
@@ -68,7 +69,7 @@ def target_of(path: str | os.PathLike[str]) -> Path:
 
 
 def part_of(target: Path) -> Path:
-    """The place of a new part beside a file, or the file itself if that is no regular one.
+    """The path of a new partial file beside a file, or the file itself if it is not a regular one.
 
     Raises:
         OSError: its folder cannot be made, or it is a folder itself.
@@ -82,7 +83,7 @@ def part_of(target: Path) -> Path:
 
 
 def put_in_place(part: Path, target: Path) -> None:
-    """Let a complete part replace a file; or a folder of files, one that is empty or not there."""
+    """Let a complete partial file replace a file, or a folder replace an empty or missing one."""
     if part == target:
         return
     for path in [part] if part.is_file() else filter(Path.is_file, part.rglob("*")):
@@ -96,7 +97,7 @@ def put_in_place(part: Path, target: Path) -> None:
 
 
 def discard(part: Path, target: Path) -> None:
-    """Remove a part that is not complete, a file or a folder."""
+    """Remove an incomplete partial file or folder."""
     if part.is_dir():
         shutil.rmtree(part, ignore_errors=True)
     elif part != target:
@@ -106,7 +107,7 @@ def discard(part: Path, target: Path) -> None:
 
 @contextmanager
 def naming(target: Path) -> Iterator[None]:
-    """Let an error of the operating system name the file that is written, not a part of it."""
+    """Let an error of the operating system name the target, not its partial file."""
     try:
         yield
     except OSError as error:

@@ -1,1 +1,1 @@
-"""The `semnav` command line: thin entry points that nothing imports."""
+"""The `semnav` command line: thin entry points that no other package imports."""

@@ -26,16 +26,15 @@ from semnav_scripts.outputs import check_file
 TABLE_HEADINGS = f"{'x, m':>9}{'y, m':>9}{'heading':>9}{'area error':>12}{'angle error':>13}"
 
 CORNER_TOUCHES = "safe for the ellipse, but a corner of the body touches a wall"
-"""What is said of a pose that is safe as Mes counts, and that the body cannot take."""
+"""Remark on a pose that is safe by the definition of Mes but in which the body does not fit."""
 
 
 @dataclass(frozen=True)
 class Arguments:
-    """Plan the pose before a door from which a robot can pass it, as Mes 2021 does.
+    """Plan the pose before a door from which a robot can pass it, by the method of Mes 2021.
 
-    For SPOT in villa_hall, without --from and --obstacle, it prints the tables of Mes 2021.
-
-    Heading 0 looks along x. The exit code is 1 if no pose lets the robot stand before the door.
+    For SPOT in villa_hall, without --from and --obstacle, it prints the tables of Mes 2021. Heading
+    0 points along x. The exit code is 1 if the robot cannot stand before the door in any pose.
 
     Attributes:
         door: name of the door.
@@ -43,7 +42,7 @@ class Arguments:
         robot: wheelchair or spot.
         start: where the robot stands, x,y,heading in metres and radians; it says from which side
             the door is approached, by default from the corridor.
-        obstacle: x,y,radius of something that stands there, such as a bin, metres; may be repeated.
+        obstacle: x,y,radius of an obstacle, such as a bin, metres; may be repeated.
         plot: picture to write (.png, .pdf or .svg).
         json: print as JSON.
     """

@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # `semnav doctor` must start without the compiled kernels
     from semnav_features.frames import Pose
 
 OptionalText: TypeAlias = Optional[str]  # noqa: UP045 - for `str | None` tyro imports typeguard
-"""A text or None, as a command's option that saves 0.05 s of its start."""
+"""A text or None as the type of an option; this form saves 0.05 s at the start."""
 
 
 class Runnable(Protocol):
@@ -30,7 +30,7 @@ class Runnable(Protocol):
 
 
 class HelpShown(Exception):  # noqa: N818 - not an error: the help was asked for and printed
-    """The help was printed; there is nothing to run."""
+    """Raised after the help was printed; there is nothing to run."""
 
 
 def parse(arguments: Any, words: Sequence[str], prog: str) -> Runnable:
@@ -43,7 +43,7 @@ def parse(arguments: Any, words: Sequence[str], prog: str) -> Runnable:
 
     Raises:
         HelpShown: the help was asked for and printed.
-        ValueError: the words do not fit; one line says which word, and what would be right.
+        ValueError: the words do not fit; one line names the word and a correct value.
     """
     box = io.StringIO()
     try:

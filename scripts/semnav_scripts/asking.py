@@ -1,4 +1,4 @@
-"""Asks the person at the terminal what a command leaves open."""
+"""Asks the person at the terminal about an ambiguous command."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from semnav_env.language import Ask
 
 
 def asking() -> Ask | None:
-    """Asks at the terminal; None where nobody sits at one, as in a pipe or a script."""
+    """A function that asks at the terminal; None without one, as in a pipe or a script."""
     return _ask if sys.stdin.isatty() and sys.stderr.isatty() else None
 
 
 def _ask(question: str) -> str:
-    """Print a question and read a line; an end of the input is no answer.
+    """Print a question and read a line; the end of the input is no answer.
 
-    Both go by the terminal and not by the output, which may be a file.
+    Both use the terminal and not the standard output, which may be a file.
     """
     print(f"{question} ", end="", file=sys.stderr, flush=True)
     line = sys.stdin.readline()

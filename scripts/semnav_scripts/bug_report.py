@@ -1,4 +1,4 @@
-"""What a bug report must say beside the versions of packages: which code, on what machine."""
+"""Facts for a bug report beside the versions of packages: code and machine."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ VARIABLES = ("SEMNAV_", "NUMBA_", "OMP_", "MKL_", "SDL_", "MUJOCO_GL", "MPLBACKE
 
 
 def facts() -> Iterator[InstallationCheck]:
-    """What is found on this machine; none of it is right or wrong."""
+    """Facts about this machine, which are neither right nor wrong."""
     yield _fact("semnav-env", f"{metadata.version('semnav-env')} in {_place()}")
     yield _fact("interpreter", f"{platform.python_implementation()} in {sys.prefix}")
     yield _fact("system", f"{platform.platform()}, {_processors()}, {_memory()}")

@@ -100,7 +100,7 @@ def headless_drawing() -> InstallationCheck:
 
 
 def kernels() -> list[InstallationCheck]:
-    """Mend the cache of compiled kernels, and check that they work and are kept between runs."""
+    """Repair the cache of compiled kernels, and check that they work and stay between runs."""
     from semnav_env.world.lidar import Lidar
     from semnav_env.world.maps import load_floor_plan
     from semnav_features import extract

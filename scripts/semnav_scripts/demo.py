@@ -27,18 +27,18 @@ from semnav_scripts.outputs import check_file
 from semnav_scripts.progress import tracked
 
 DEFAULT_MAP = "heidelberg_hallway"
-"""The floor plan where none is named."""
+"""The default floor plan."""
 
 STEPS_PER_SEARCH_FRAME = 60
 """The same for a search, which takes minutes: the film is twenty times as fast."""
 
 KNOWS_THE_PLAN = "agent searcher, which knows the floor plan; --agent explorer does without"
-"""What is said of the agent of a search where none is named."""
+"""Remark on the default agent of a search."""
 
 
 @dataclass(frozen=True)
-class _Told:
-    """What a robot is told, where.
+class _DemoTask:
+    """The command of the drive, its floor plan and its options.
 
     Attributes:
         plan: the floor plan.
@@ -63,11 +63,11 @@ class _Told:
 class Arguments:
     """Let a robot carry out a command.
 
-    The exit code is 0 if the robot got there, 1 if it did not, and 2 if the command cannot be
+    The exit code is 0 if the robot succeeded, 1 if it did not, and 2 if the command cannot be
     carried out from its start.
 
     Attributes:
-        command: what to say to the robot; in a terminal it asks what is left open.
+        command: the command; in a terminal the robot asks about an ambiguous one.
         episode: instead of a command the id of a frozen episode, such as val_unseen-00246, or
             FILE:ID for one of a file; the same agent drives it as in `semnav evaluate`.
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path;
@@ -77,9 +77,9 @@ class Arguments:
         agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
             folder of a trained agent, or package.module:Class; searcher (knows the plan) or
             explorer for a search. If not given: scripted, for a search searcher.
-        pose: where the robot starts, x,y,heading in metres and radians; random if not given.
-        seed: of everything that is random; 0 if not given.
-        dynamics: what else moves.
+        pose: start pose of the robot, x,y,heading in metres and radians; random if not given.
+        seed: seed of everything that is random; 0 if not given.
+        dynamics: people, doors and furniture that move.
         save: film to write (.gif or .mp4).
         picture: picture of the end to write (.png).
         show: show the drive in a window, without --save and --picture.
@@ -105,7 +105,7 @@ class Arguments:
         if self.seed is not None and self.seed < 0:
             raise ValueError(f"seed is {self.seed}; it must be 0 or more")
         self._check_files()
-        told = self._told() if self.episode is None else self._frozen(self.episode)
+        told = self._commanded() if self.episode is None else self._frozen(self.episode)
         agent = make_agent(self.agent or ("searcher" if told.searches else "scripted"))
         env = self._environment(told, agent)
         film = Film(env, STEPS_PER_SEARCH_FRAME if told.searches else STEPS_PER_FRAME)
@@ -131,10 +131,10 @@ class Arguments:
     def _filmed(self) -> bool:
         return self.save is not None or self.picture is not None
 
-    def _told(self) -> _Told:
-        """What is to be done, from a command."""
+    def _commanded(self) -> _DemoTask:
+        """The task of the drive, from a command."""
         if self.command is None:
-            raise ValueError("say what the robot is to do, or give --episode ID")
+            raise ValueError("give a command for the robot, or --episode ID")
         plan = load_floor_plan(self.map or DEFAULT_MAP)
         command = understand(self.command, self.language, plan.room_names, asking())
         spoken = language_of_text(self.command, self.language)
@@ -142,24 +142,26 @@ class Arguments:
         if self.pose is not None:
             options["pose"] = parse_pose(self.pose)
         searches = SearchHouse() in command.clauses
-        return _Told(plan, spoken, options, self.seed or 0, searches)
+        return _DemoTask(plan, spoken, options, self.seed or 0, searches)
 
-    def _frozen(self, name: str) -> _Told:
-        """What is to be done in a frozen episode, with the noise and the limit of `evaluate`."""
+    def _frozen(self, name: str) -> _DemoTask:
+        """The task of a frozen episode, with the noise and the limit of `evaluate`."""
         from semnav_agents.evaluation.runner import EPISODE_SECONDS
         from semnav_env.judge.episodes import Expected, find_episode
 
         others = ("command", "map", "language", "pose", "seed")
         for other in (other for other in others if getattr(self, other) is not None):
             option = other if other == "command" else f"--{other}"
-            raise ValueError(f"--episode says it all; leave out {option} {getattr(self, other)!r}")
+            raise ValueError(
+                f"--episode has these settings; leave out {option} {getattr(self, other)!r}"
+            )
         episode = find_episode(name)
         spoken = language_of_text(episode.command, episode.language)
         infeasible = episode.expected is Expected.INFEASIBLE
-        told = _Told(episode.plan(), spoken, {"episode": episode}, episode.number)
+        told = _DemoTask(episode.plan(), spoken, {"episode": episode}, episode.number)
         return replace(told, limits={"max_seconds": EPISODE_SECONDS}, infeasible=infeasible)
 
-    def _environment(self, told: _Told, agent: Agent) -> SemNavEnv:
+    def _environment(self, told: _DemoTask, agent: Agent) -> SemNavEnv:
         """The environment for a command: that of a search has a person detector and victims."""
         mode = "human" if self.show else "rgb_array" if self._filmed else None
         if not told.searches:
@@ -242,13 +244,13 @@ class Arguments:
         if "search" in outcome:
             print(_found(outcome["search"]))
         if outcome["impossible"]:
-            print(f"the robot took it for impossible: {outcome['impossible']}")
+            print(f"the robot found the command impossible: {outcome['impossible']}")
         for path in outcome["files"]:
             print(f"wrote {path}")
 
 
 def _found(search: dict[str, Any]) -> str:
-    """What became of a search, in one line."""
+    """The outcome of a search in one line."""
     return (
         f"{search['found']} of {search['victims']} people found, "
         f"{search['false_reports']} false reports, "

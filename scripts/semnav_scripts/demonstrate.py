@@ -30,10 +30,10 @@ class Arguments:
         out: name of the dataset, such as semnav/train-scripted-v0, or a new folder.
         agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
             folder of a trained agent, or package.module:Class.
-        observation: what is recorded: semantic, raw, truth, all or command; the agent's own if not
-            given.
-        rounds: round observations to a millimetre, which takes far less room.
-        labels: record what the oracle would do as well, in every state, as DAgger needs it.
+        observation: the recorded observation: semantic, raw, truth, all or command; the agent's own
+            if not given.
+        rounds: round observations to a millimetre, which takes much less space.
+        labels: also record the action of the oracle in every state, as DAgger needs it.
         robot: wheelchair or spot.
         episodes: number of episodes, evenly spaced; all if not given.
         failures: keep failed episodes as well.
@@ -87,7 +87,7 @@ class Arguments:
         return 0
 
     def _env(self, observation: Any) -> SemNavEnv:
-        """An environment that says how it was made, for the dataset's specification."""
+        """An environment with a specification of how it was made, for the dataset."""
         made = gym.make(
             "semnav_env:SemNav-v0",
             robot=self.robot,

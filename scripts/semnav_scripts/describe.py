@@ -31,7 +31,7 @@ class Arguments:
     """Say the shortest command that leads from a pose to a door, a room or a place.
 
     Attributes:
-        start: where the robot stands, x,y,heading in metres and radians.
+        start: start pose of the robot, x,y,heading in metres and radians.
         to: name of a door, a room or a corridor, or x,y in metres.
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
         approach: go through a door that is named, or only to it.

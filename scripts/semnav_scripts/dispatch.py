@@ -33,7 +33,7 @@ LONGEST_LINE = 1000
 """Largest number of characters of an error that are shown."""
 
 RETRY_SECONDS = 0.01
-"""Time after which a signal comes again whose exception was dropped, seconds."""
+"""Time after which a signal is sent again if its exception was dropped, seconds."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ class CommandTable:
             return BAD_INPUT
 
     def _interrupted(self, stop: KeyboardInterrupt, error: BaseException) -> int:
-        """Say that a signal ended the command, and where what it had so far is kept."""
+        """Print that a signal ended the command, and where its results so far are kept."""
         code = exit_code_of(stop)
         said = f"{self.prog}: {'terminated' if code == TERMINATED else 'interrupted'}"
         print(_with_notes(said, error), file=sys.stderr)
@@ -132,7 +132,7 @@ def exit_code_of(stop: BaseException) -> int:
 
 
 def _end_loading() -> None:
-    """From here on signals are exceptions, so that a command can put away what it has begun."""
+    """Turn signals into exceptions from here on, so that a command can save its partial results."""
     for number in SIGNALS:
         if getattr(signal.getsignal(number), "__name__", "") == "leave_at_once":
             signal.signal(number, interrupt)
@@ -141,7 +141,7 @@ def _end_loading() -> None:
 
 
 def _interrupt_again(lost: UnraisableHookArgs) -> None:
-    """Send a signal again that came where Python only tells of exceptions, such as in `__del__`."""
+    """Send a signal again that came where exceptions are only reported, as in `__del__`."""
     if not isinstance(lost.exc_value, KeyboardInterrupt):
         sys.__unraisablehook__(lost)
         return
@@ -153,7 +153,7 @@ def _interrupt_again(lost: UnraisableHookArgs) -> None:
 
 
 def in_one_line(error: Exception) -> str:
-    """What an error says, in one line that a user understands, of `LONGEST_LINE` at most."""
+    """The message of an error in one line that a user understands, at most `LONGEST_LINE` long."""
     return clipped(_first_line(error), LONGEST_LINE)
 
 
@@ -171,7 +171,7 @@ def _first_line(error: Exception) -> str:
 
 
 def _with_notes(said: str, error: BaseException | None) -> str:
-    """The message with the notes of an error and its causes: where the results so far are."""
+    """The message with the notes of an error and its causes: where partial results are."""
     parts = [said]
     while error is not None:
         parts += getattr(error, "__notes__", ())

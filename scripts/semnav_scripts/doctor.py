@@ -1,4 +1,4 @@
-"""`semnav doctor`: check the installation, mend its cache, and say what a bug report needs."""
+"""`semnav doctor`: check the installation, repair its cache, and print facts for a bug report."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from semnav_scripts.checks import InstallationCheck
 
 @dataclass(frozen=True)
 class Arguments:
-    """Check the installation, and say how to mend it; its output belongs into a bug report.
+    """Check the installation, and say how to repair it; include its output in a bug report.
 
     Files of the cache of compiled kernels that are damaged or were left behind are removed. The
     exit code is 0 if everything that is needed works, and 1 otherwise. Optional parts do not
     count.
 
     Attributes:
-        warm: also compile the kernels of all commands, side by side, so that none waits for them
-            later; minutes.
+        warm: also compile the kernels of all commands, in parallel, so that no command waits for
+            them later; this takes minutes.
         json: print JSON.
     """
 

@@ -95,7 +95,7 @@ class EpisodesGenerate:
 
 @dataclass(frozen=True)
 class EpisodesCheck:
-    """Check again that episodes are what they say; the exit code is 1 if one is not.
+    """Check episodes again; the exit code is 1 if one has a fault.
 
     Attributes:
         splits: names of splits or paths of files; all splits if none is named.
@@ -108,7 +108,7 @@ class EpisodesCheck:
     json: bool = False
 
     def run(self) -> int:
-        """Check, and print every fault and how many there are."""
+        """Check, and print every fault and the number of faults."""
         if self.stride < 1:
             raise ValueError(f"--stride is {self.stride}; it must be at least 1")
         checked, found = 0, list[str]()

@@ -22,7 +22,7 @@ from semnav_scripts.progress import tracked
 SPLIT_NAME = "test_real_floors"
 
 MAX_BARE = 3
-"""Episodes for which a floor may have no command before no more are looked for in it."""
+"""Number of episodes without a possible command after which a floor is given up."""
 
 NO_CORRIDOR = (
     "has no corridor, and episodes begin in corridors: write the plan with `semnav map import`, "
@@ -34,7 +34,7 @@ NO_CORRIDOR = (
 class EpisodesImport:
     """Make episodes like those of test_real in maps that are not part of the package.
 
-    A floor in which none can be made is left out; the last lines say which, and why.
+    A floor in which no episode can be made is left out; the last lines say which floors, and why.
 
     Attributes:
         maps: floor plans (.geojson), or files as `semnav map import` reads them.
@@ -69,7 +69,7 @@ class EpisodesImport:
         return 0
 
     def _made(self, plans: list[FloorPlan], left_out: list[str]) -> Iterator[Episode]:
-        """The episodes of all plans; says in `left_out` what is missing, and why."""
+        """The episodes of all plans; missing ones are listed in `left_out`, with the reason."""
         for index, plan in enumerate(plans):
             try:
                 yield from self._made_in(plan, index, left_out)

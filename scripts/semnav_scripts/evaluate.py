@@ -36,7 +36,7 @@ from semnav_scripts.outputs import check_file, check_folder, counted
 from semnav_scripts.progress import tracked
 
 USUAL_SEEDS = 20
-"""Seeds of a suite where their number is not given."""
+"""Default number of seeds of a suite."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +60,9 @@ class Arguments:
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
         films: folder for a film (.gif) of each failure, which is driven a second time for it.
-        dynamics: what else moves.
-        out: file for the episodes, one JSON object a line, written as they are driven, into
-            `.NAME-....part.jsonl` beside it until the end or an interruption.
+        dynamics: people, doors and furniture that move.
+        out: file for the episodes, one JSON object in each line, written as they are driven. Until
+            the end or an interruption this file is `.NAME-....part.jsonl` beside the target.
         json: print the table as JSON.
     """
 
@@ -113,7 +113,7 @@ class Arguments:
         return 0
 
     def _who(self) -> dict[str, Any]:
-        """What every row says: who drove, where, with which body, and by which rules."""
+        """Fields of every row: agent, split, body, version and rules."""
         who = agent_label(self.agent) | {"split": Path(self.suite).name, "robot": self.robot}
         usual, chosen = asdict(NO_DYNAMICS), asdict(self.dynamics)
         if moved := {name: value for name, value in chosen.items() if value != usual[name]}:
@@ -189,7 +189,7 @@ class Arguments:
             )
         if self.recheck:
             odd = [result for result in results if result.rechecked]
-            print(f"second opinion: {len(odd)} of {len(results)} episodes judged otherwise")
+            print(f"second opinion: {len(odd)} of {len(results)} episodes judged differently")
             for result in odd:
                 said = f"{' / '.join(result.verdicts)}, second opinion: {result.rechecked}"
                 print(f"{result.command}: seed {result.seed}: {said}")

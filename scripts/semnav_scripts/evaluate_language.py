@@ -28,7 +28,7 @@ CORPORA = Path("studies/corpora")
 
 @dataclass(frozen=True)
 class Arguments:
-    """Count how many sentences are understood, asked back, refused and misread.
+    """Count the sentences that are understood, asked about, refused and misread.
 
     Attributes:
         corpora: files of sentences with their meanings (.jsonl, see docs/meanings.md), or of plain

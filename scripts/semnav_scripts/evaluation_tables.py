@@ -26,7 +26,7 @@ SHOWN_DIGITS = 12
 
 
 def headings(who: Mapping[str, Any], everything: Summary) -> Iterator[str]:
-    """Lines that say who drove where, by which version, and how sure the shares are.
+    """Lines above the tables: agent, split, body, version, and the intervals of the shares.
 
     Args:
         who: what every row of the results has: agent, split, robot, version and so on.

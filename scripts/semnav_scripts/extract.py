@@ -25,20 +25,20 @@ class Arguments:
     """Turn a log of lidar scans into walls, doors, corners and corridors.
 
     It reads CARMEN logs, CSV and BreezySLAM's logs (text or gz), npz archives, ROS 1 bags, and
-    ROS 2 bags (folder, .db3 or .mcap). A log that is cut short is processed up to its last whole
-    scan; the exit code is then 2. Notes on stderr say what looks wrong in the log.
+    ROS 2 bags (folder, .db3 or .mcap). A truncated log is processed up to its last complete scan;
+    the exit code is then 2. Notes on stderr name possible errors of the log.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag.
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
         out: file for the scenes, one JSON object a line, in the frame of the lidar.
-        plot: picture of some scans with what was found in them (.png, .pdf or .svg).
+        plot: picture of some scans with their features (.png, .pdf or .svg).
         scans: number of scans in the picture, spread evenly over the log.
         every: take only every Nth scan.
         limit: stop after this number of scans.
-        geometry: what the log leaves unsaid of its scans.
+        geometry: values of the scans that the log does not contain.
         settings: limits of the extractor, metres and radians.
-        explain: write with each scene what was turned down, and why; some thousand times slower.
+        explain: write with each scene the rejected candidates, and why; some thousand times slower.
         json: print the summary as JSON on stdout.
     """
 

@@ -1,4 +1,4 @@
-"""`semnav follow`: what a robot would have believed of a command on a recorded log."""
+"""`semnav follow`: the belief of a robot that follows a command on a recorded log."""
 
 from __future__ import annotations
 
@@ -31,28 +31,28 @@ from semnav_scripts.scene_report import bad_text, print_notes
 
 @dataclass(frozen=True)
 class Arguments:
-    """Follow a command on a recorded log, with the robot's side of the simulator.
+    """Follow a command on a recorded log, with the belief tracker of the environment.
 
-    The robot is told the command at the first scan. Each line is a moment in which its clause or
-    its goal changed. The frame is that of odometry and begins at the first scan. The exit code is
-    0 if the robot believes in the end that it has carried out the whole command, and 1 if not, or
-    if so many scans found no match that its poses are not to be trusted. A log that is cut short
-    is followed up to its last whole scan; the exit code is then 2. Notes on stderr say what looks
-    wrong in the log.
+    The robot gets the command at the first scan. Each line is a moment in which its clause or its
+    goal changed. Poses are in the odom frame, whose origin is the pose at the first scan. The exit
+    code is 0 if the robot believes in the end that it has carried out the whole command, and 1 if
+    not, or if so many scans found no match that its poses are unreliable. A truncated log is
+    followed up to its last complete scan; the exit code is then 2. Notes on stderr name possible
+    errors of the log.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag; see `semnav extract --help`.
-        command: what the robot is told; rooms cannot be named, because nobody points them out.
+        command: the command; it cannot name rooms, because a log does not say where they are.
         language: of the command: en or de (english, german); recognised if not given.
         mount: pose of the lidar on the robot, x,y,heading in metres and radians.
-        poses: where the robot was: "log" takes the poses of the log, "odometry" its wheel
+        poses: source of the robot's poses: "log" takes the poses of the log, "odometry" its wheel
             odometry, and "match" matches each scan with the earlier ones, with wheel odometry as a
             guess if the log has it; odometry, or else the log's poses, if not given.
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
         first: number of the first scan, from 1.
-        limit: stop after so many scans.
-        geometry: what the log leaves unsaid of its scans.
-        plot: picture of what is remembered at the end (.png, .pdf or .svg).
+        limit: stop after this number of scans.
+        geometry: values of the scans that the log does not contain.
+        plot: picture of the memory at the end (.png, .pdf or .svg).
         settings: limits of the extractor, metres and radians.
         json: print one JSON object a line.
     """
@@ -71,7 +71,7 @@ class Arguments:
     json: bool = False
 
     def run(self) -> int:
-        """Follow it, and say what the robot believed."""
+        """Follow the command, and print the changes of the belief."""
         command, mount = understood(self.command, self.language, ()), parse_pose(self.mount)
         for name in ("first", "limit"):
             value = getattr(self, name)
@@ -100,7 +100,7 @@ class Arguments:
     def _follow(
         self, command: Command, mount: Pose, matcher: ScanOdometry
     ) -> tuple[list[Belief], TruncatedLogError | None]:
-        """Print each change of mind; returns all beliefs, and what ended the log too early."""
+        """Print each change of the belief; returns all beliefs and the error of a truncated log."""
         beliefs: list[Belief] = []
         damage: TruncatedLogError | None = None
         with open_log(self.log, self.geometry, self.topic) as log:
@@ -153,9 +153,9 @@ _WATCHED: dict[PoseChoice | None, tuple[PoseSource, ...]] = {
     "match": ("odometry",),
     None: ("pose", "odometry"),
 }
-"""Fields of a record in which something may look wrong, by where the poses come from."""
+"""Fields of a record that are checked for errors, by the source of the poses."""
 
 
 def _mind(belief: Belief) -> tuple[int, str, tuple[str, ...]]:
-    """What a line is printed for when it changes."""
+    """The part of a belief whose changes are printed."""
     return belief.clause, belief.goal.kind.name, belief.reasons

@@ -34,14 +34,14 @@ TABLE_HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause
 class Arguments:
     """Say what a command refers to in a floor plan, clause by clause.
 
-    Each clause gives a goal: "reach" a place, "pass" the door that is named, or "stop". A line
-    shows the goal, the place where the robot's centre is to go, in the frame of the floor plan,
-    what was understood, and the door. Behind a door to pass, the heading points away from the door.
+    Each clause gives a goal: "reach" a place, "pass" the named door, or "stop". A line shows the
+    goal, the target pose of the robot's centre in the frame of the floor plan, the referent in
+    words, and the door. Behind a door to pass, the heading points away from the door.
 
     Attributes:
         command: a command, or only a place, such as "the second door on the right".
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
-        pose: where the robot stands, x,y,heading in metres and radians.
+        pose: pose of the robot, x,y,heading in metres and radians.
         robot: wheelchair or spot.
         language: of the command: en or de (english, german); recognised if not given.
         json: print as JSON.
@@ -83,7 +83,7 @@ class Arguments:
 
 
 def _in_words(because: str, clause: Clause, spoken: Language) -> str:
-    """What was understood, in the language of the command; goals speak English alone."""
+    """The reason of a goal in the language of the command; goals themselves use English only."""
     if spoken.code == "en":
         return because
     unsaid = isinstance(clause, GoToDoor) and clause.by_default
@@ -97,7 +97,7 @@ def _line(row: dict[str, Any]) -> str:
 
 
 def understood(text: str, language: str | None = None, rooms: tuple[str, ...] = ()) -> Command:
-    """The command that a text says; for a place alone, the command to go there.
+    """The command of a text; for a place alone, the command to go there.
 
     Raises:
         CommandError: the text is neither a command nor a place.

@@ -1,4 +1,4 @@
-"""JSON Lines files that are never left half written."""
+"""JSON Lines files that are never left incomplete."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from semnav_scripts.outputs import counted
 
 
 class JsonLines:
-    """A file of one JSON object a line, which replaces an older file only at the end.
+    """A file with one JSON object in each line, which replaces an older file only at the end.
 
-    Until then the lines are written to a file beside it, `.NAME-....part.jsonl`. Each line is
-    a single write, so no line is ever cut. The end may also be an error or an interruption; the
-    error then gets a note that says where the lines are. Without any line an older file stays.
+    Until then the lines are written to a file beside it, `.NAME-....part.jsonl`. Each line is a
+    single write, so no line is ever incomplete. The end may also be an error or an interruption;
+    the error then gets a note that says where the lines are. Without any line an older file stays.
 
     Args:
         path: of the file; missing folders are made. A pipe or a terminal is written directly.
@@ -77,7 +77,7 @@ class JsonLines:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Put the file in its place."""
+        """Rename the file to its final name."""
         with uninterrupted(), self._lock:
             self._file.close()
             if not self._lines and error is not None:

@@ -35,7 +35,7 @@ KEPT_SUFFIX = ".jsonl.gz"
 class Arguments:
     """Make a table of agents from files that `semnav evaluate --out` wrote.
 
-    Each file is of one evaluation: one agent, one split, one body. Trainings of one preset with
+    Each file holds one evaluation: one agent, one split, one body. Trainings of one preset with
     different seeds are one row. In brackets are intervals of 95 %: of a bootstrap, or Wilson's
     where all episodes agree. The last column says the version, and the first digits of the
     fingerprint of the rules; results under different rules are refused.
@@ -45,7 +45,7 @@ class Arguments:
         mixed: take results under different rules into one table.
         markdown: print the table as Markdown.
         json: print it as JSON.
-        keep: folder into which what the table needs is written, a small file for each evaluation.
+        keep: folder for the values that the table needs, with a small file for each evaluation.
     """
 
     files: Positional[tuple[Path, ...]]
@@ -107,7 +107,7 @@ def _written(estimate: Estimate | None) -> str:
 
 
 def _keep(attempts: list[Attempt], folder: Path) -> None:
-    """Write the attempts of each evaluation to a file of its own, which says by its name whose."""
+    """Write the attempts of each evaluation to a file named by agent, split and body."""
     files: dict[str, list[Attempt]] = {}
     for each in sorted(attempts):
         seed = "" if each.training_seed < 0 else f"-{each.training_seed}"

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 SHARED = ("split", "robot", "version, rules")
-"""Columns that stand above the rows that agree in them."""
+"""Columns that are printed once above the rows that share their value."""
 
 LONGEST_NAME = 15
 """Length of an agent's name beyond which it has a line of its own, characters."""
@@ -15,7 +15,7 @@ SEPARATOR = " "
 
 
 def plain_table(headings: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
-    """A table whose intervals stand below their values, and what rows share above the rows.
+    """A table with intervals below their values, and with shared values above the rows.
 
     Args:
         headings: of all columns.

@@ -20,4 +20,4 @@ COMMANDS = CommandTable(
         }.items()
     },
 )
-"""The sub-commands; each is a module of this package, so that none loads what another needs."""
+"""The sub-commands; each is a module of this package, so that none loads the imports of another."""

@@ -36,15 +36,15 @@ from semnav_scripts.scene_report import bad_text, print_notes
 class Arguments:
     """Build a floor plan of walls and doors from a log of lidar scans.
 
-    It reads the same logs as `semnav extract`. A log that is cut short is mapped up to its last
-    whole scan; the exit code is then 2. It is 1 if so many scans found no match that the plan is
-    not to be trusted. Notes on stderr say what looks wrong in the log.
+    It reads the same logs as `semnav extract`. A truncated log is mapped up to its last
+    complete scan; the exit code is then 2. It is 1 if so many scans found no match that the plan is
+    unreliable. Notes on stderr name possible errors of the log.
 
     Attributes:
         log: the log: a file, or the folder of a ROS 2 bag.
         out: the floor plan to write (.geojson).
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
-        poses: where the scans were taken: "log" takes the poses of the log; "match" matches each
+        poses: source of the scans' poses: "log" takes the poses of the log; "match" matches each
             scan with the earlier ones, starts at (0, 0, 0), and uses wheel odometry if the log
             has it.
         mount: pose of the lidar on the robot, x,y,heading in metres and radians, by which wheel
@@ -52,7 +52,7 @@ class Arguments:
         every: take only every Nth scan.
         limit: stop after this number of scans.
         picture: of the plan (.png, .pdf or .svg).
-        geometry: what the log leaves unsaid of its scans.
+        geometry: values of the scans that the log does not contain.
         settings: limits of the extractor, metres and radians.
         map_settings: limits of the map, metres and radians.
         json: print the summary as JSON on stdout.
@@ -72,7 +72,7 @@ class Arguments:
     json: bool = False
 
     def run(self) -> int:
-        """Build the plan, and print what it holds."""
+        """Build the plan, and print a summary."""
         self._check()
         mount = parse_pose(self.mount)
         line_map, odometry = LineMap(self.map_settings), ScanOdometry()

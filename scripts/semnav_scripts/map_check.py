@@ -1,4 +1,4 @@
-"""`semnav map check`: say what is wrong with a floor plan."""
+"""`semnav map check`: find the faults of a floor plan."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from semnav_features.plot import check_suffix
 
 @dataclass(frozen=True)
 class Arguments:
-    """Say what is wrong with a floor plan; the exit code is 1 if anything is.
+    """Find the faults of a floor plan; the exit code is 1 if there are any.
 
     Attributes:
         plan: name of a bundled plan, of a generated one (office:medium:17), or path of a file.

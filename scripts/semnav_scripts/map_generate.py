@@ -30,7 +30,7 @@ class Arguments:
     json: bool = False
 
     def run(self) -> int:
-        """Generate the office, write the files, and print what it holds."""
+        """Generate the office, write the files, and print a summary."""
         if self.plot:
             check_suffix(self.plot)
         plan = generate_office(self.seed, self.distribution)

@@ -17,7 +17,7 @@ from semnav_scripts.outputs import check_distinct
 
 @dataclass(frozen=True)
 class Arguments:
-    """Make a floor plan from a map of another program, and say what was understood of it.
+    """Make a floor plan from a map of another program, and report what was imported.
 
     It reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if they
     exist; or the image alone), drawings (.dxf, .svg), vector maps and houses of HouseExpo (.json),

@@ -1,4 +1,4 @@
-"""`semnav map show`: show what a floor plan holds."""
+"""`semnav map show`: show the contents of a floor plan."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from semnav_scripts.plan_summary import in_a_line, summary
 
 @dataclass(frozen=True)
 class Arguments:
-    """Show what a floor plan holds.
+    """Show the contents of a floor plan.
 
     Attributes:
         plan: name of a bundled plan, of a generated one (office:medium:17), or path of a file.

@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def check_file(path: Path | None, option: str) -> None:
-    """Refuse a path at which no file can be written; None is no file, and fine.
+    """Refuse a path at which no file can be written; None means no file and is accepted.
 
     Args:
         path: of the file; the file and its folders may be missing.
@@ -24,10 +24,10 @@ def check_file(path: Path | None, option: str) -> None:
 
 
 def check_distinct(paths: Mapping[str, Path | None]) -> None:
-    """Refuse one file for two things: the later would overwrite the earlier.
+    """Refuse one path for two outputs: the later would overwrite the earlier.
 
     Args:
-        paths: of files, by the option that gave each, or by what it is; None is no file.
+        paths: paths of files, by the option or the purpose of each; None means no file.
 
     Raises:
         ValueError: two are the same file; names both.
@@ -42,7 +42,7 @@ def check_distinct(paths: Mapping[str, Path | None]) -> None:
 
 
 def check_folder(path: Path | None, option: str) -> None:
-    """Refuse a path at which there is no folder and none can be made; None is fine.
+    """Refuse a path at which there is no folder and none can be made; None is accepted.
 
     Args:
         path: of the folder; it may be missing.

@@ -1,4 +1,4 @@
-"""What a floor plan holds, as numbers and in a line."""
+"""Summaries of a floor plan, as numbers and in one line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from semnav_scripts.outputs import counted
 
 
 def summary(plan: FloorPlan) -> dict[str, Any]:
-    """What a plan holds, as JSON; metres."""
+    """The contents of a plan as JSON; metres."""
     west, south, east, north = plan.boundary.bounds
     return {
         "name": plan.name,

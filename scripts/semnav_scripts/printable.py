@@ -1,4 +1,4 @@
-"""Makes text from files safe to print: what a terminal would act on is written out."""
+"""Makes text from files safe to print: control sequences are printed as codes."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ escape sequences, invisible ones, among them those that turn the direction of wr
 characters, and separators of lines."""
 
 LAYOUT = frozenset("\n\t")
-"""Control characters that our own tables are made of."""
+"""Control characters that tables of this package use."""
 
 
 def printable(text: str) -> str:
-    """A text with every character that a terminal would act on written out by its number.
+    """A text in which each character that controls a terminal is printed as its code.
 
-    Names, sources and quotations come from files, and whoever wrote those must not move the
-    cursor, colour what follows, or hide a part of it.
+    Names, sources and quotations come from files. Their authors must not be able to move the
+    cursor, colour the following text, or hide a part of it.
     """
     if text.isascii() and text.replace("\n", "").isprintable():
         return text  # nearly always
@@ -29,7 +29,7 @@ def printable(text: str) -> str:
 
 
 def _written(character: str) -> str:
-    """A character as it is, or by its number as JSON would write it, where JSON can."""
+    """A character unchanged, or its code as JSON writes it, where JSON can."""
     if character in LAYOUT or unicodedata.category(character) not in UNPRINTABLE:
         return character
     number = ord(character)
@@ -41,7 +41,7 @@ def _written(character: str) -> str:
 class PrintableStream:
     """A stream that makes all text printable before it writes it.
 
-    It is no terminal for those who ask, because escape sequences of theirs are written out, too.
+    It reports that it is no terminal, because escape sequences would be printed as codes, too.
 
     Args:
         stream: to write to.
@@ -56,17 +56,17 @@ class PrintableStream:
         return len(text)
 
     def isatty(self) -> bool:
-        """Whether colours and the like are of use: no."""
+        """False: colours and other escape sequences have no effect."""
         return False
 
     def __getattr__(self, name: str) -> Any:
-        """Everything else of the stream."""
+        """All other attributes of the stream."""
         return getattr(self._stream, name)
 
 
 @contextmanager
 def printing_text() -> Iterator[None]:
-    """While a command runs, what it prints on the standard output is printable."""
+    """Make the standard output of a command printable while it runs."""
     usual = sys.stdout
     sys.stdout = PrintableStream(usual)
     try:

@@ -1,4 +1,4 @@
-"""A progress bar on stderr for what takes longer than two seconds."""
+"""A progress bar on stderr for work that takes longer than two seconds."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 T = TypeVar("T")
 
 BAR_DELAY = 2.0
-"""Time before the bar appears, seconds: what ends sooner needs none."""
+"""Time before the bar appears, seconds: shorter work needs no bar."""
 
 
 def tracked(

@@ -41,7 +41,7 @@ def document(record: LogRecord, scene: Scene) -> dict[str, Any]:
 
 
 def rejections(scene: Scene) -> list[dict[str, Any]]:
-    """What was turned down, and why, as JSON; places as in `document`."""
+    """The rejected candidates with their reasons, as JSON; points as in `document`."""
     return [_rounded(asdict(each)) for each in scene.rejections]
 
 
@@ -57,7 +57,7 @@ def _door(door: Door) -> dict[str, Any]:
 
 
 def bad_text(log: ScanLog) -> str:
-    """How many lines, rows or messages of a log could not be read, and by reason."""
+    """The number of lines, rows or messages of a log that could not be read, by reason."""
     reasons = [
         f"  {count} x {reason} (first: {log.unit} {log.first_bad[reason]})"
         for reason, count in log.bad.most_common()
@@ -66,13 +66,13 @@ def bad_text(log: ScanLog) -> str:
 
 
 def print_notes(notes: Iterable[str]) -> None:
-    """Say on stderr what looks wrong in a log."""
+    """Print the notes about possible errors of a log on stderr."""
     for note in notes:
         print(printable(f"note: {note}"), file=sys.stderr)
 
 
 class ExtractionTally:
-    """Counts of what a run has found, and its speed.
+    """Counts of the features of a run, and its speed.
 
     Attributes:
         scenes: number of scans that were turned into scenes.
@@ -112,9 +112,9 @@ class ExtractionTally:
         """The summary for programs.
 
         Args:
-            whole: whether the log was.
-            written: files.
-            notes: what looks wrong in the log.
+            whole: whether the log was complete.
+            written: the written files.
+            notes: notes about possible errors of the log.
         """
         return json.dumps(
             {

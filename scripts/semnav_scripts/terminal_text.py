@@ -1,4 +1,4 @@
-"""Text of a terminal whose locale knows ASCII alone, such as LC_ALL=C: it is UTF-8 all the same."""
+"""Text of a terminal whose locale is ASCII only, such as LC_ALL=C: it is treated as UTF-8."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TextIO
 def as_utf8(word: str) -> str:
     """A word of the command line with the characters that the locale could not decode.
 
-    Python keeps such bytes as surrogates (PEP 383), which names of files need and no text has. A
+    Python keeps such bytes as surrogates (PEP 383), which file names need but texts never have. A
     word that is not UTF-8 is left as it is.
     """
     if word.isascii():
@@ -23,7 +23,7 @@ def as_utf8(word: str) -> str:
 
 
 def write_utf8(*streams: TextIO) -> None:
-    """Let streams that can write ASCII alone write UTF-8."""
+    """Let streams that can write only ASCII write UTF-8."""
     for stream in streams:
         encoding = getattr(stream, "encoding", None) or "utf-8"
         if isinstance(stream, io.TextIOWrapper) and codecs.lookup(encoding).name == "ascii":

@@ -1,4 +1,4 @@
-"""Shows how far a training is: a bar on a terminal, lines in a log file."""
+"""Shows the progress of a training: a bar on a terminal, lines in a log file."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class TrainingDisplay:
             )
 
     def _time_left(self, progress: SessionProgress) -> timedelta:
-        """Time until the end of the phase that is under way, from how long it took so far."""
+        """Time until the end of the current phase, estimated from its time so far."""
         state, fraction = progress.state, progress.fraction
         phase = state.phase if isinstance(state, Preparation) else "learning"
         if phase != self._phase:
@@ -68,7 +68,7 @@ def training_display() -> Iterator[TrainingDisplay]:
 
 
 def state_line(state: TrainingState) -> str:
-    """How far a training is, in one line."""
+    """The progress of a training in one line."""
     if isinstance(state, TrainingReport):
         told = f"{state.steps} decisions, {state.rate:.0f}/s, "
         if math.isnan(state.success):
@@ -83,7 +83,7 @@ def state_line(state: TrainingState) -> str:
 
 
 def _is_told(state: TrainingState) -> bool:
-    """Whether a log file has a line of it: each update, the begin and each tenth of a phase."""
+    """Whether to write a line to a log file: at each update, and at each tenth of a phase."""
     if isinstance(state, TrainingReport) or state.done == 1:
         return True
     before, now = (LINES_A_PHASE * done // state.total for done in (state.done - 1, state.done))

@@ -1,8 +1,9 @@
 """Compiles the kernels of all commands before they are needed.
 
-A kernel holds the code of all that it calls. What is compiled in one process shares these parts, so
-what is much alike, such as one robot and many, is compiled in one process; other groups, which
-share little, side by side. Kernels that two of them need are compiled by the first.
+A kernel holds the code of all functions that it calls, and kernels that are compiled in one process
+share these parts. Therefore similar kernels, such as those for one robot and for many, are compiled
+in one process. Other groups, which share little, are compiled in parallel; kernels that two groups
+need are compiled by the first one.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ class WarmedGroup(NamedTuple):
     Attributes:
         name: of the group.
         seconds: how long that took.
-        fault: the last line of what its process said if it failed; otherwise empty.
+        fault: the last line of its process's output if it failed; otherwise empty.
     """
 
     name: str
@@ -40,7 +41,7 @@ class WarmedGroup(NamedTuple):
 
 
 def warm() -> Iterator[WarmedGroup]:
-    """Compile all groups, as many at once as there are cores; each is told when it is ready."""
+    """Compile all groups, as many at once as there are cores; each is reported when it is ready."""
     with ThreadPoolExecutor(os.cpu_count() or 1) as pool:
         for group in as_completed([pool.submit(_warmed, name) for name in GROUPS]):
             yield group.result()
@@ -72,7 +73,7 @@ def environments() -> None:
 
 
 def agents() -> None:
-    """What plans paths, poses and words."""
+    """Compile the kernels for planning paths and poses, and for describing routes."""
     told = "go through the second door on the right"
     for robot in ("wheelchair", "spot"):
         for agent in ("scripted", "oracle"):
@@ -82,7 +83,7 @@ def agents() -> None:
 
 
 def logs() -> None:
-    """What reads logs, and maps and checks buildings."""
+    """Compile the kernels for reading logs, building maps and checking floor plans."""
     with tempfile.TemporaryDirectory() as folder:
         log = Path(folder) / "drive.log"
         log.write_text("".join(_lines()))
@@ -95,7 +96,7 @@ def logs() -> None:
 
 
 def searches() -> None:
-    """Robots that search houses, and what else moves."""
+    """Compile the kernels for searches and for dynamics."""
     from semnav_env.env import SemNavEnv
     from semnav_env.world.dynamics import Dynamics
     from semnav_env.world.dynamics.settings import MODELS
@@ -115,11 +116,11 @@ GROUPS: dict[str, Callable[[], None]] = {
     "logs": logs,
     "searches": searches,
 }
-"""What is compiled side by side."""
+"""Groups that are compiled in parallel."""
 
 
 def _run(*words: str) -> None:
-    """Run a command without a word; whether it achieves what was asked does not matter."""
+    """Run a command without output; its exit code does not matter."""
     from semnav_scripts.main import main
 
     with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere), redirect_stderr(nowhere):

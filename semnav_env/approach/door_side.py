@@ -1,4 +1,4 @@
-"""A door as a robot meets it: from one of its two sides."""
+"""A door seen from one of its two sides."""
 
 from __future__ import annotations
 
@@ -64,11 +64,11 @@ class DoorSide:
 
     @property
     def frame(self) -> Pose:
-        """In the middle of the opening, x through the door."""
+        """The frame in the middle of the opening, with x through the door."""
         return *self.middle, self.through
 
     def distance_before(self, place: Point) -> float:
-        """How far a place lies before the line of the door, metres; negative behind it."""
+        """Distance of a place before the line of the door, metres; negative behind it."""
         return -to_local(self.frame, place)[0]
 
     def before(self, along: FloatArray) -> FloatArray:

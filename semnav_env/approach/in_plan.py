@@ -1,4 +1,4 @@
-"""From which side a door of a floor plan is approached."""
+"""Chooses the side from which a door of a floor plan is approached."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from semnav_features.frames import Point
 
 
 def side_towards(plan: FloorPlan, door: PlanDoor, start: Point | None = None) -> DoorSide:
-    """The side of a door on which a robot is, or that of the corridor.
+    """The side of a door on which the robot is, or else the side in the corridor.
 
     It is the side that shares a region of the plan with the start, or else the side in a corridor,
     through which one comes from elsewhere. If that says nothing, it is the side of the door's line

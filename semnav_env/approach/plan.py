@@ -21,18 +21,18 @@ AREA_TOLERANCE = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class ApproachPlan:
-    """The poses before a door that were considered, and what was found.
+    """The candidate poses before a door, and the result of point planning.
 
     Attributes:
         side: the door and the side before it.
         room: the free space before it, within reach.
         square: the free-space square (section 5.2).
-        square_is_free: whether nothing cuts it; then `straight` is the pose to take.
+        square_is_free: whether nothing solid cuts it; then `straight` is the best pose.
         straight: the pose `stand_off` before the door, facing it.
         straight_clear: whether the body touches nothing there.
         ranked: all candidates; the safe ones first, then those that are clear of walls, each from
-            best to worst; each refused one says why.
-        clear_count: how many are at a position that is clear of walls.
+            best to worst; each refused candidate has a reason.
+        clear_count: number of candidates at a position that is clear of walls.
     """
 
     side: DoorSide
@@ -51,12 +51,12 @@ class ApproachPlan:
 
     @property
     def safe(self) -> tuple[CandidatePose, ...]:
-        """Those of which nothing cuts the ellipse, best first."""
+        """The candidates whose ellipse is free, best first."""
         return tuple(each for each in self.ranked if each.is_safe)
 
     @property
     def usable(self) -> tuple[Pose, ...]:
-        """The poses to try in turn: none of them lets the body touch anything."""
+        """The poses to try in turn; in none of them the body touches anything."""
         straight = (self.straight,) if self.square_is_free and self.straight_clear else ()
         return straight + tuple(each.pose for each in self.safe if each.body_clear)
 

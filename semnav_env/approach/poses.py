@@ -17,7 +17,7 @@ from semnav_env.robots import RobotSpec
 from semnav_features.frames import FloatArray, Pose, points_to_parent, wrap_angle
 
 DIGITS = 5
-"""Digits of the errors that count: those of Table 7.2. Poses that differ by less are equals."""
+"""Digits of the errors that count, as in Table 7.2; poses that differ by less are equal."""
 
 NORTH = math.pi / 2
 """Heading 0 of the thesis in the convention of this package, radians: along y."""
@@ -28,7 +28,7 @@ ANGLE_NOISE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class CandidatePose:
-    """A pose before a door, with what speaks against it.
+    """A candidate pose before a door, with its errors and the reason for a refusal.
 
     Attributes:
         pose: of the robot's centre, in the frame of the door.
@@ -56,7 +56,7 @@ class CandidatePose:
 
     @property
     def key(self) -> tuple[float, float, float]:
-        """What poses are ordered by: area error, then angle error, then distance (5.4)."""
+        """Sort key of poses: area error, then angle error, then distance (5.4)."""
         return self.area_error, self.angle_error, self.distance
 
 
@@ -132,7 +132,7 @@ def candidates(
     settings: ApproachSettings,
     start: Pose | None,
 ) -> Iterator[CandidatePose]:
-    """Every position with every heading, measured; in no order.
+    """Measure every position with every heading; the result has no order.
 
     Args:
         side: the door and the side before it.

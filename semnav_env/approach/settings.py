@@ -77,4 +77,5 @@ class ApproachSettings:
 
 
 THESIS_SETTINGS = ApproachSettings(wraps_at=math.pi)
-"""What gives Table 7.2 of Mes 2021, for SPOT in her hall; plan with the usual ones."""
+"""Settings that reproduce Table 7.2 of Mes 2021, for SPOT in her hall; plan with the default
+ones."""

@@ -1,4 +1,4 @@
-"""What is solid around a door, from a floor plan, from a perceived scene, or both."""
+"""The solid things around a door, from a floor plan, from a perceived scene, or both."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ SEED_DISTANCE = 0.02
 """Distance before the door of the place that says which side of it the room is, metres."""
 
 THIN = 0.002
-"""Thickness that a wall which ends in the open gets, metres: without one it takes no area."""
+"""Thickness of a wall that ends in the open, metres: without thickness it would have no area."""
 
 NOTHING = Polygon()
 """The empty area."""
@@ -59,12 +59,12 @@ class Surroundings:
         return Surroundings(ends_of(scene.walls), ends_of(scene.doors))
 
     def with_points(self, points: FloatArray, radius: float = POINT_RADIUS) -> Surroundings:
-        """The same with a small disc around each scanned point that is finite, shape (n, 2)."""
+        """A copy with a small disc around each finite scanned point, shape (n, 2)."""
         finite = points[np.isfinite(points).all(axis=1)]
         return self.with_obstacles(shapely.MultiPoint(finite).buffer(radius, quad_segs=2))
 
     def with_obstacles(self, *areas: BaseGeometry) -> Surroundings:
-        """The same with further solid areas, such as a bin before the door."""
+        """A copy with further solid areas, such as a bin before the door."""
         return replace(self, obstacles=shapely.union_all([self.obstacles, *areas]))
 
     def room_before(self, side: DoorSide) -> BaseGeometry:

@@ -1,1 +1,1 @@
-"""How fast the environment is on this machine: `semnav bench`."""
+"""Measures the speed of the environment on this machine: `semnav bench`."""

@@ -1,4 +1,4 @@
-"""A lidar by brute force in NumPy: the yardstick of the benchmark, and what tests compare with."""
+"""A lidar by brute force in NumPy: the yardstick of the benchmark and the reference of tests."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def brute_force_ranges(pose: Pose, segments: FloatArray, angles: FloatArray) -> 
         angles: of the beams in the lidar frame, radians, shape (n,).
 
     Returns:
-        Distance to the nearest hit in metres, shape (n,); +inf where there is none at all.
+        Distance to the nearest hit in metres, shape (n,); +inf without a hit.
     """
     ends = points_to_local(pose, segments.reshape(-1, 2, 2))
     a, along = ends[:, 0], ends[:, 1] - ends[:, 0]
@@ -52,10 +52,10 @@ def yardstick() -> Part:
 
 
 def yardstick_alone() -> Part:
-    """The same scan in a process that does nothing else.
+    """A scan of the yardstick in a process that does nothing else.
 
-    There the C library gives the memory of each large array back to the system, and every scan
-    pays for new pages; in a process that once held more memory it keeps them.
+    In such a process the C library returns the memory of each large array to the system, and every
+    scan pays for new pages. A process that once held more memory keeps its pages.
     """
     return Part("the same in a process of its own", _seconds_alone)
 

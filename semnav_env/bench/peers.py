@@ -1,4 +1,4 @@
-"""Other simulators, where they are installed: the same lidar among the same walls."""
+"""Other simulators, if they are installed, with the same lidar among the same walls."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ PEER_STEPS = 20
 
 
 def peer_parts(plan: FloorPlan, robot: RobotSpec, lidar: LidarSpec, start: Pose) -> list[Part]:
-    """The step of each peer that is installed: its physics and its lidar, without features.
+    """A step of each installed peer simulator: its physics and its lidar, without features.
 
     Args:
-        plan: whose walls stand there.
+        plan: the floor plan, of which the peers get the walls.
         robot: the body; a differential drive is assumed.
-        lidar: beams, span and range; peers do without its errors.
+        lidar: beams, span and range; peers simulate none of its errors.
         start: pose of the robot, world frame.
     """
     peers = {"irsim": _ir_sim, "navground": _navground}

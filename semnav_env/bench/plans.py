@@ -1,4 +1,4 @@
-"""Floor plans as large as wanted, whose part around the robot is always the same."""
+"""Floor plans of any size that are the same around the robot."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ GAP = 1.0
 
 
 def repeated(plan: FloorPlan, copies: int) -> FloorPlan:
-    """A plan and copies of it to its east, with doors and rooms of their own names.
+    """A plan and copies of it to its east; doors and rooms of each copy have their own names.
 
     Args:
         plan: to repeat.
-        copies: how often it is there, at least once.
+        copies: number of copies with the plan itself, at least 1.
     """
     west, south, east, north = plan.boundary.bounds
     shift = east - west + GAP

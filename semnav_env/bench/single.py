@@ -1,4 +1,4 @@
-"""A single environment: its step, the parts of it, and its reset."""
+"""Parts of the benchmark for a single environment: its step, parts of a step, and its reset."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def step_parts(steps: int, **options: Any) -> list[Part]:
 
 
 def training_step_part(steps: int, episodes: str, **options: Any) -> Part:
-    """A step on the episodes of a split, each begun anew when it is over; the clock runs then, too.
+    """A step on the episodes of a split, with the time of their resets.
 
     Args:
         steps: calls in a timing.
@@ -71,12 +71,12 @@ def training_step_part(steps: int, episodes: str, **options: Any) -> Part:
 
 
 def on_split(episodes: str) -> dict[str, Any]:
-    """Arguments of an environment whose episodes are of a split and of usual length."""
+    """Arguments of an environment with the episodes of a split and their usual length."""
     return {"episodes": episodes, "max_seconds": MEAN_DRIVE_SECONDS}
 
 
 def kernel_parts(steps: int, **options: Any) -> list[Part]:
-    """What a step is made of, each part by itself where the robot happens to stand."""
+    """The parts of a step, each timed alone at the present pose of the robot."""
     env = SemNavEnv(**options)
     env.reset(seed=0)
     lidar, pose = env.simulator.lidar, env.world.pose
@@ -114,7 +114,7 @@ def cruising_actions(steps: int, shape: tuple[int, ...]) -> np.ndarray:
 
 
 def _drive(env: gym.Env[Any, Any], actions: np.ndarray) -> float:
-    """Seconds per step; the clock stands still while an episode that hit something is renewed."""
+    """Seconds per step, without the time of resets."""
     begin = time.perf_counter()
     for action in actions:
         _, _, terminated, truncated, info = env.step(action)

@@ -1,4 +1,4 @@
-"""How long starting takes, in processes of their own."""
+"""Measures the processor time of starts, each in a process of its own."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ STARTS: dict[str, tuple[str, ...]] = {
 
 
 def start_parts() -> list[Part]:
-    """Processor time of whole processes, with kernels that have been compiled."""
+    """Processor time of whole processes whose kernels are in the cache."""
     return [
         Part(name, lambda words=words: _seconds(words))  # type: ignore[misc]
         for name, words in STARTS.items()
@@ -53,9 +53,9 @@ def start_parts() -> list[Part]:
 
 
 def compile_seconds() -> float:
-    """Processor time, seconds, of a process that compiles what single and vector environments need.
+    """Processor time, seconds, to compile the kernels of single and vector environments.
 
-    It uses an empty folder in place of the user's.
+    The process uses an empty cache folder in place of the user's.
     """
     with tempfile.TemporaryDirectory() as folder:
         return _seconds(("-c", _EVERYTHING), {"SEMNAV_CACHE_DIR": folder})

@@ -1,4 +1,4 @@
-"""What `semnav bench` times in one run."""
+"""The measurements of one run of `semnav bench`."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def benchmark(robots: int, threads: int, runs: int, steps: int, **options: Any) 
 def growth(plan: FloorPlan, threads: int, runs: int, steps: int, **options: Any) -> list[Timing]:
     """Time how a step grows with the building, the beams and the robots; the yardstick first.
 
-    The building grows by copies beside it, so that what is around the robot stays the same.
+    Copies are added beside the building, so the surroundings of the robot stay the same.
     """
     parts = [yardstick()]
     for copies in COPIES:
@@ -93,7 +93,7 @@ def training(
 
 
 def starting(runs: int, cold: bool) -> list[Timing]:
-    """Processor time that starting takes; the yardstick first.
+    """Processor time of starts; the yardstick first.
 
     Args:
         runs: how often each part is timed; the median counts.

@@ -1,4 +1,4 @@
-"""Times many parts in turn, so that all of them meet the same moods of the machine."""
+"""Times many parts in turn, so that a change of the machine's speed affects all of them."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from typing import NamedTuple
 
 
 class Part(NamedTuple):
-    """Something to time.
+    """A function to time.
 
     Attributes:
         name: of the part.
-        seconds: does it many times; returns the mean of one time, seconds.
+        seconds: calls the function many times; returns the mean duration of a call, seconds.
     """
 
     name: str
@@ -24,12 +24,12 @@ class Part(NamedTuple):
 
 @dataclass(frozen=True)
 class Timing:
-    """How long one part takes.
+    """The measured duration of one part.
 
     Attributes:
         name: of the part.
         microseconds: median over the runs of the mean of one call.
-        ratio: how often it is done while the yardstick is done once.
+        ratio: number of calls in the time of one call of the yardstick.
     """
 
     name: str
@@ -43,7 +43,7 @@ class Timing:
 
 
 def timings(parts: Sequence[Part], runs: int) -> list[Timing]:
-    """Time parts in turn, after each was done once; the first one is the yardstick.
+    """Time parts in turn, after one call of each; the first one is the yardstick.
 
     Args:
         parts: to time.

@@ -1,4 +1,4 @@
-"""A vector environment: what one robot's step costs among many."""
+"""Parts of the benchmark for a vector environment: the time of one robot's step."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from semnav_env.vector import SemNavVectorEnv
 
 
 def vector_part(steps: int, robots: int, threads: int, **options: Any) -> Part:
-    """The step of a vector environment, seconds for each robot.
+    """The step of a vector environment, seconds for each robot, without resets.
 
-    The clock stands still while robots begin anew, as in `single.step_parts`: those that hit
-    something and those whose episode is over.
+    Resets after a collision and after the end of an episode do not count, as in
+    `single.step_parts`.
 
     Args:
         steps: of one robot in a timing, about.
@@ -42,9 +42,9 @@ def vector_part(steps: int, robots: int, threads: int, **options: Any) -> Part:
 
 
 def training_part(steps: int, robots: int, threads: int, episodes: str, **options: Any) -> Part:
-    """The step of a vector environment that begins the episodes of a split itself, as in training.
+    """The step of a vector environment on the episodes of a split, with resets, as in training.
 
-    The clock runs during resets, and while buildings that were not met before are made ready.
+    The time includes resets and the preparation of buildings that are new to the process.
 
     Args:
         steps: of one robot in a timing, about.

@@ -1,7 +1,7 @@
-"""The judge's side: what episodes are about, and whether the command was carried out.
+"""The judge: contents of episodes, and whether the command was carried out.
 
-`Judge` says clause by clause whether it was, each in one word, a `Verdict`; it alone knows the
-floor plan. What it counts stands in its `JudgeRecord`, for compiled code.
+`Judge` gives one word for each clause, a `Verdict`; only the judge knows the floor plan. Its
+counters are in its `JudgeRecord`, for compiled code.
 """
 
 from semnav_env.judge.goals import place, plan_goals

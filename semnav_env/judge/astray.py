@@ -1,4 +1,4 @@
-"""What leads astray: wrong doors, arms that a clause does not name, junctions left behind."""
+"""Finds wrong ways: doors and arms that a clause does not name, and missed junctions."""
 
 from __future__ import annotations
 
@@ -18,9 +18,10 @@ from semnav_features.rules import DoorRules
 
 
 def may_cross(goal: Goal, crossed: PlanDoor, rules: DoorRules) -> bool:
-    """Whether a goal is to pass that very door, lies beyond it on the known way, or lets roam.
+    """Whether a goal allows the robot to cross a door.
 
-    What is too wide to count as a door may be crossed anyway.
+    The goal is to pass exactly this door, lies beyond it on the known way, or allows every door.
+    An opening that is too wide to count as a door may always be crossed.
     """
     if crossed.is_opening(rules) or (isinstance(goal, StopGoal) and goal.roams):
         return True
@@ -37,9 +38,9 @@ def wrong_arms(clause: Clause, goal: Goal, rules: SuccessRules) -> FloatArray:
     of its side from the axis, and how far inside the arm a robot has gone astray; metres.
 
     Args:
-        clause: under way.
-        goal: of that clause, on the true scene.
-        rules: how far is too far.
+        clause: the active clause.
+        goal: the goal of that clause, on the true scene.
+        rules: the limits of wrong turns.
     """
     named = goal.junction if isinstance(goal, ReachGoal) else None
     rows = [
@@ -52,7 +53,7 @@ def wrong_arms(clause: Clause, goal: Goal, rules: SuccessRules) -> FloatArray:
 
 
 def missed_beyond(goal: Goal, rules: SuccessRules) -> float:
-    """How far along the goal's corridor a junction to turn at has been missed, metres.
+    """Distance along the goal's corridor beyond which its junction has been missed, metres.
 
     Infinite where there is none.
     """

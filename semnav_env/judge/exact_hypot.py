@@ -29,7 +29,7 @@ def exact_hypot(x: float, y: float) -> float:
 
 @kernel
 def _square_error(x: float, square: float) -> float:
-    """What is missing from the rounded square of a number."""
+    """The rounding error of the square of a number."""
     t = x * _SPLITTER
     high = t - (t - x)
     low = x - high

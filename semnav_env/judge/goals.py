@@ -1,4 +1,4 @@
-"""What a command asks for on the true scene."""
+"""The goals of a command on the true scene."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def plan_goals(
     Args:
         floor_plan: the truth.
         command: what to do.
-        start: from where.
+        start: pose of the robot's centre, world frame.
         guide: points out the ways to rooms; a `RoomGuide` of the floor plan if not given.
         rules: distances and tolerances.
 
@@ -46,7 +46,7 @@ def goals_in_turn(
     guide: Guide | None = None,
     rules: Rules = Rules(),
 ) -> Iterator[tuple[int, Goal]]:
-    """As `plan_goals`, each with the index of its clause; an error comes after the goals before."""
+    """Yield each goal with the index of its clause; an error comes after the goals before it."""
     guide = RoomGuide(floor_plan, command) if guide is None else guide
     follower = Follower(command, complete=True, guide=guide, rules=rules)
     scene = floor_plan.scene_by(rules.door)
@@ -66,7 +66,7 @@ def goals_in_turn(
 
 
 def check_grounded(follower: Follower) -> None:
-    """Refuse a clause under way that the true scene has nothing for.
+    """Refuse the active clause if the true scene does not have its referent.
 
     Raises:
         GroundingError: says what is missing.
@@ -80,7 +80,7 @@ def check_grounded(follower: Follower) -> None:
 def _check_inside(goal: Goal, floor_plan: FloorPlan) -> None:
     """Refuse a goal that no pose in the plan reaches.
 
-    To a robot that stands across a corridor the end of another one can look like a corner.
+    For a robot that stands across a corridor, the end of another corridor can look like a corner.
 
     Raises:
         GroundingError: says where the goal leads.

@@ -1,4 +1,4 @@
-"""The judge: follows one episode on the true scene and says what became of each clause."""
+"""The judge: follows one episode on the true scene and gives each clause a verdict."""
 
 from __future__ import annotations
 
@@ -46,20 +46,20 @@ if TYPE_CHECKING:
 class Judge:
     """Judges one episode on the true scene, control period by control period.
 
-    A door clause is done when the robot's centre crosses that very door; a place is reached when
-    the centre comes within the tolerances of the clause's goal on the true scene.
+    A door clause is done when the robot's centre crosses exactly the named door. A place is reached
+    when the centre comes within the tolerances of the clause's goal on the true scene.
 
     Args:
         mission: what is to be done.
-        payload: by which some clauses are judged, beside where the robot is.
-        measures_way: whether the progress towards the goal is wanted. The shortest ways to each
-            goal are computed for it.
+        payload: decides on some clauses, in addition to the robot's pose.
+        measures_way: whether to measure the progress towards the goal, which needs the shortest
+            paths to each goal.
 
     Attributes:
         mission: likewise.
-        follower: how far the command has truly come.
-        record: what is kept count of, for `judge_motion`.
-        row: what became of the last control period, dtype `PERIOD`, shape (1,); part of the record.
+        follower: the follower of the command on the true scene.
+        record: counters of the judge, for `judge_motion`.
+        row: result of the last control period, dtype `PERIOD`, shape (1,); part of the record.
         verdicts: one word per clause, plain text for `info`; see `Verdict`.
         failure: why the episode failed; None if it has not.
         truncated: whether the time was over before the command was carried out.
@@ -117,7 +117,7 @@ class Judge:
         put_motion(self._numbers, motion)
 
     def think(self, events: int) -> None:
-        """Do what the events of `judge_motion` call for, and complete `row`."""
+        """Handle the events of `judge_motion`, and complete `row`."""
         if not events:
             return
         was_over = self.over
@@ -133,7 +133,7 @@ class Judge:
         self._note_verdicts()
 
     def conclude(self, truncated: bool) -> dict[str, Any]:
-        """End the episode, whose time may be over; returns what is known then, for `info`."""
+        """End the episode, whose time may be over; returns the entries of `info` at the end."""
         if truncated:
             self.truncated = True
             self.out_of_time()
@@ -153,12 +153,12 @@ class Judge:
 
     @property
     def period(self) -> Period:
-        """What became of the last control period, in plain numbers."""
+        """The result of the last control period in plain numbers."""
         return read_period(self._numbers)
 
     @property
     def remaining(self) -> float:
-        """Length of the shortest way to the goal under way, metres; 0 when all is done."""
+        """Length of the shortest path to the active goal, metres; 0 when all clauses are done."""
         return float(self._state["remaining"][0])
 
     @property
@@ -168,30 +168,30 @@ class Judge:
 
     @property
     def over(self) -> bool:
-        """Whether nothing more is to come: success or failure."""
+        """Whether the command has ended, by success or failure."""
         return self.failure is not None or self.follower.done
 
     @property
     def completed(self) -> int:
-        """How many clauses have been carried out."""
+        """Number of clauses that have been carried out."""
         return len(self._met)
 
     @property
     def goals(self) -> tuple[Goal, ...]:
-        """The goals as they were judged, one after the other, and those planned for the rest.
+        """The judged goals in their order, followed by the planned goals of the remaining clauses.
 
-        They differ from the planned ones after "go back", which leads along the way driven.
+        They differ from the planned goals after "go back", which leads along the driven path.
         """
         active = () if self.follower.done else (self.follower.goal,)
         return (*self._met, *active, *self.mission.goals[self.completed + 1 :])
 
     @property
     def verdict(self) -> Verdict:
-        """What became of the command as a whole; active while it is under way."""
+        """The verdict on the whole command; `ACTIVE` until it ends."""
         return self.failure or (Verdict.DONE if self.follower.done else Verdict.ACTIVE)
 
     def _follow(self, events: int) -> bool:
-        """Go on with the command; returns whether a clause was carried out in full."""
+        """Continue with the command; returns whether a clause was carried out in full."""
         clause, goal, crossed = self.follower.active, self._goal, None
         state = self._state[0]
         pose: Pose = (float(state["x"]), float(state["y"]), float(state["heading"]))
@@ -209,12 +209,12 @@ class Judge:
     def _fault(
         self, events: int, completed: int | None, goal: Goal, crossed: PlanDoor | None
     ) -> Verdict | None:
-        """What went wrong in this control period, if anything.
+        """The failure of this control period, if there is one.
 
         Args:
             events: of `judge_motion`.
             completed: index of the clause whose goal was reached.
-            goal: that was under way.
+            goal: the goal that was active.
             crossed: the door that was crossed.
         """
         if crossed is not None and not may_cross(goal, crossed, self.mission.rules.door):
@@ -228,7 +228,7 @@ class Judge:
         return self.failure
 
     def _carried_out(self, clause: int) -> bool:
-        """Whether the clause of that index, whose goal was reached, is carried out in full."""
+        """Whether the clause with this index, whose goal was reached, is carried out in full."""
         return self._payload is None or self._payload.fulfils(self.mission.command.clauses[clause])
 
     def _note_verdicts(self) -> None:
@@ -249,7 +249,7 @@ class Judge:
         set_arms(self.record, self._arms)
 
     def _measure_way(self) -> None:
-        """Measure the way to the goal under way from now on, and anew from where the robot is."""
+        """Measure the path to the active goal from the robot's present pose on."""
         if self._measures_way:
             ways, done = self.mission.geodesic.to(place(self.follower.goal)), self.follower.done
             self._distances = NO_DISTANCES if done else ways.distances

@@ -16,19 +16,19 @@ from semnav_env.world.simulator.sensed import Motion
 
 
 class Period(NamedTuple):
-    """What became of a robot in one control period; of many robots, an array for each entry.
+    """The judge's result of one control period; for many robots, an array for each entry.
 
     Attributes:
         steps: control periods since the reset.
         pose: true pose of the robot's centre, world frame; of many, shape (n, 3).
         collisions: contacts begun since the reset.
-        path_length: driven since the reset, metres.
-        progress: by how much the shortest way to the goal under way got shorter, metres.
+        path_length: length of the path since the reset, metres.
+        progress: decrease of the shortest way to the current goal in this period, metres.
         in_contact: whether the body touches anything.
         clause: whether a clause was completed.
         success: whether the whole command was completed.
-        failure: whether the episode failed, but for running out of time.
-        over: whether nothing more is to come: success or failure, now or before.
+        failure: whether the episode failed for another reason than its time limit.
+        over: whether the episode is decided: success or failure, now or before.
     """
 
     steps: Any
@@ -44,7 +44,7 @@ class Period(NamedTuple):
 
     @property
     def judged(self) -> tuple[Any, Any, Any, Any]:
-        """What a reward may depend on first, see `Tick`: progress, clause, success, failure."""
+        """The first inputs of a reward, see `Tick`: progress, clause, success, failure."""
         return self.progress, self.clause, self.success, self.failure
 
 
@@ -71,13 +71,14 @@ First the `Motion` of the period, written before each call. Then: last_x, last_y
 still_seconds: of the period before, the latter how long the robot has stood still. crossed_door:
 index of the door of the plan that was crossed, or -1. remaining, remaining_before: length of the
 way to the goal, now and one period ago. west, south, spacing: of the field of distances.
-still_speed, still_yaw_rate: below both the robot stands still; longest_still: for how long it may.
-missed_beyond: see `missed_beyond`. corridor_x to corridor_sin: frame of the corridor of the goal.
-period: what is said of the control period; the judge writes it, and completes it when it thinks.
+still_speed, still_yaw_rate: below both the robot stands still; longest_still: the longest time that
+it may stand still. missed_beyond: see `missed_beyond`. corridor_x to corridor_sin: frame of the
+corridor of the goal. period: the result of the control period; the kernel writes it, and the judge
+completes it after an event.
 """
 
 _MOTION_FORMAT, _PERIOD_FORMAT = Struct("=5dqd"), Struct("=q3dqdd5?")
-"""Faster than NumPy by far for a few numbers of one row."""
+"""Formats of `struct`, which is much faster than NumPy for a few numbers of one row."""
 
 _PERIOD_PLACE = JUDGE_STATE.itemsize - PERIOD.itemsize
 
@@ -94,7 +95,7 @@ def first_state(mission: Mission) -> np.ndarray:
 
 
 def limit_goal(state: np.ndarray, goal: Goal, rules: SuccessRules) -> None:
-    """Write what a goal limits: where its junction is missed, and for how long to stand still."""
+    """Write the limits of a goal: where its junction is missed, and the longest time at rest."""
     state["longest_still"] = rules.still_seconds + wait_of(goal)
     state["missed_beyond"] = missed_beyond(goal, rules)
     if goal.corridor is not None:
@@ -110,6 +111,6 @@ def put_motion(numbers: memoryview, motion: Motion) -> None:
 
 
 def read_period(numbers: memoryview) -> Period:
-    """Read from the bytes of a state what it says of the control period."""
+    """Read the result of the control period from the bytes of a state."""
     steps, x, y, heading, *others = _PERIOD_FORMAT.unpack_from(numbers, _PERIOD_PLACE)
     return Period(steps, (x, y, heading), *others)

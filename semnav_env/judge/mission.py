@@ -1,4 +1,4 @@
-"""What is to be done in an episode and the true way there, as only the floor plan tells."""
+"""The mission of an episode: its command, with the true goals and ways from the floor plan."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from semnav_features.scene import Scene
 
 @dataclass(frozen=True, eq=False)
 class Mission:
-    """A command at a place, and what it asks for there.
+    """A command at a start pose in a floor plan, with its true goals and ways.
 
     Attributes:
         floor_plan: the truth.
@@ -34,7 +34,7 @@ class Mission:
         start: pose of the robot's centre, world frame.
         goals: of the clauses on the true scene, each grounded where the one before ends.
         ways: to the rooms that the command names, by the number of the clause, world frame.
-        rules: by which it is grounded and judged.
+        rules: rules by which the command is grounded and judged.
     """
 
     floor_plan: FloorPlan
@@ -64,7 +64,7 @@ class Mission:
 
     @property
     def info(self) -> dict[str, Any]:
-        """What `reset` says of the mission, for `info`: small plain values."""
+        """Entries of `info` of `reset` about the mission: small plain values."""
         said, plan = str(self.command), self.floor_plan.name
         return {"command": said, "instruction": said, "floor_plan": plan, "pose": self.start}
 

@@ -1,4 +1,4 @@
-"""A payload: a further sensor, what the robot makes of it, and how clauses are judged by it."""
+"""A payload: a sensor beside the lidar, with its own map and its own judgement of clauses."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from semnav_features.frames import FloatArray, Pose
 
 
 class PayloadMarks(NamedTuple):
-    """What a picture shows of a payload, world frame.
+    """Parts of a picture that show a payload, world frame.
 
     Attributes:
-        floor: middles of the cells of floor that were looked at, shape (n, 2).
-        flags: places to show a flag at, shape (k, 2).
+        floor: middles of the cells of floor that were inspected, shape (n, 2), metres.
+        flags: positions of flags, shape (k, 2), metres.
         status: a line of text.
     """
 
@@ -30,7 +30,7 @@ class PayloadMarks(NamedTuple):
 
 @runtime_checkable
 class Payload(Protocol):
-    """What a robot carries beside its lidar, as `SemNavEnv(payload=...)` takes it.
+    """A sensor that a robot carries beside its lidar, for `SemNavEnv(payload=...)`.
 
     Entries of the observation see it as `Moment.payload`, rewards as `Tick.payload`.
     """
@@ -48,7 +48,7 @@ class Payload(Protocol):
         """
 
     def update(self, motion: Motion, tracker: BeliefTracker) -> None:
-        """Take in one control period, after the robot's belief and before `Judge.think`.
+        """Process one control period, after the robot's belief and before `Judge.think`.
 
         Args:
             motion: the true one.
@@ -60,23 +60,23 @@ class Payload(Protocol):
         ...
 
     def marks(self) -> PayloadMarks:
-        """What a picture shows of it."""
+        """Parts of a picture that show the payload."""
         ...
 
     def start_info(self) -> dict[str, Any]:
-        """What `reset` says of it, for `info`."""
+        """Entries of `info` of `reset` about the payload."""
         ...
 
     def final_info(self) -> dict[str, Any]:
-        """What is known at the end of an episode, for `info`."""
+        """Entries of `info` at the end of an episode."""
         ...
 
 
 def as_payload(value: object) -> Payload | None:
-    """What `payload=` takes, as it is.
+    """Check an argument `payload=` and return it unchanged.
 
     Raises:
-        ValueError: an object that is none.
+        ValueError: the object does not have the members of a payload.
     """
     if value is None or (isinstance(value, Payload) and not isinstance(value, type)):
         return value

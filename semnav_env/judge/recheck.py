@@ -27,7 +27,7 @@ from semnav_features.frames import Point as Position
 from semnav_features.rules import DoorRules
 
 ROUNDING = 1e-9
-"""What lies on the very limit of a goal is within it, however computed; metres and radians."""
+"""Tolerance for points on the limit of a goal, which count as inside, metres and radians."""
 
 FAR = 1000.0
 """Longer than any building, metres."""
@@ -41,12 +41,12 @@ Jambs: TypeAlias = tuple[Position, Position]
 
 @dataclass(frozen=True)
 class SecondOpinion:
-    """What the second opinion says.
+    """The result of the second opinion on an episode.
 
     Attributes:
         verdict: "done", "wrong door", "wrong turn", "stopped short" or "out of time".
-        clauses_done: how many goals were met, in order, before it was over.
-        step: row of the recording at which it was over; its last one if it never was.
+        clauses_done: number of goals that were met, in order, before the end.
+        step: row of the recording at which the episode ended; the last row if it never did.
     """
 
     verdict: str
@@ -60,10 +60,10 @@ def recheck(
     """Judge a recorded path.
 
     Args:
-        recording: of the episode; what comes after its end is not looked at.
+        recording: recording of the episode; rows after its end are ignored.
         floor_plan: the truth.
-        goals: what the command asks for, one after the other, on the true scene.
-        rules: what the judge accepts.
+        goals: the goals of the command in their order, on the true scene.
+        rules: tolerances of the judge.
     """
     path = _Path(recording, rules.success)
     last = 0
@@ -88,7 +88,7 @@ def _first_failure(
     final: bool,
     rules: Rules,
 ) -> tuple[int, str] | None:
-    """The first failure behind `after`, before a goal is met or in that very step."""
+    """The first failure after `after`, before a goal is met or in the same step."""
     wrong_door = path.crosses_any(_forbidden(floor_plan, goal, rules.door))
     wrong_turn = path.enters(_wrong_places(goal, rules.success))
     longest = rules.success.still_seconds + wait_of(goal)
@@ -126,7 +126,7 @@ class _Path:
         return np.asarray(np.logical_or.reduce([self._never(), *map(self.crosses, doors)]))
 
     def meets(self, goal: Goal, since: int) -> Mask:
-        """At which steps a goal is met that holds since some row, whatever was before."""
+        """At which steps a goal is met that is active since some row."""
         match goal:
             case SeekGoal():
                 return self._never()
@@ -170,7 +170,7 @@ class _Path:
 
 
 def _left_of(path: FloatArray, door: Jambs) -> Mask:
-    """Which points lie to the left of a line: with it they go round counter-clockwise."""
+    """Mask of the points to the left of a directed line."""
     line = np.broadcast_to(np.array(door), (len(path), 2, 2))
     rings = np.concatenate((line, path[:, None], line[:, :1]), axis=1)
     return np.asarray(shapely.is_ccw(shapely.linearrings(rings)))
@@ -188,7 +188,7 @@ def _forbidden(floor_plan: FloorPlan, goal: Goal, rules: DoorRules) -> list[Jamb
 
 
 def _wrong_places(goal: Goal, rules: SuccessRules) -> list[Polygon]:
-    """Where the robot has gone astray: arms that are not named, and far behind the junction."""
+    """The places of wrong turns: arms that are not named, and the corridor behind the junction."""
     if goal.corridor is None:
         return []
     frame, named = goal.corridor.frame, _named_arm(goal)
@@ -214,7 +214,7 @@ def _named_arm(goal: Goal) -> SideOpening | None:
 
 
 def _arm(opening: SideOpening, depth: float) -> Polygon:
-    """What lies at least `depth` inside an arm, in the corridor's frame."""
+    """The part of an arm that lies at least `depth` inside it, in the corridor's frame."""
     near = opening.offset + depth
     low, high = (near, FAR) if opening.left else (-FAR, -near)
     return shapely.box(opening.near, low, opening.far, high)
@@ -226,18 +226,18 @@ def _placed(frame: Pose, polygon: Polygon) -> Polygon:
 
 
 def _lasting(mask: Mask) -> NDArray[np.int64]:
-    """For how many rows on end a mask has been true at each row; the first one does not count."""
+    """Number of rows for which a mask has been true at each row; the first does not count."""
     rows = np.arange(len(mask))
     false = ~mask | (rows == 0)
     return np.asarray(rows - np.maximum.accumulate(np.where(false, rows, 0)))
 
 
 def _first(mask: Mask, after: int) -> int | None:
-    """The first true row behind `after`."""
+    """The first true row after `after`."""
     rows = np.flatnonzero(mask[after + 1 :])
     return int(rows[0]) + after + 1 if len(rows) else None
 
 
 def _later(mask: Mask) -> Mask:
-    """One value per row from one per step: nothing has happened at the start."""
+    """Turn one value per step into one per row; the row of the start is False."""
     return np.concatenate(([False], mask))

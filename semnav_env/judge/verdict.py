@@ -1,4 +1,4 @@
-"""What can become of a clause."""
+"""Verdicts of the judge on clauses and commands."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import lru_cache
 
 
 class Verdict(StrEnum):
-    """What became of a clause or of a command; printed as a plain word, also within a tuple."""
+    """The verdict on a clause or a command; it is printed as a plain word, also within a tuple."""
 
     __repr__ = str.__repr__
 
@@ -32,15 +32,15 @@ FAILURES = (
 def verdicts(
     clauses: int, active: int, failure: Verdict | None, skipped: frozenset[int] = frozenset()
 ) -> tuple[Verdict, ...]:
-    """Done or skipped, then what became of the active clause, then pending.
+    """One verdict for each clause: done or skipped, then that of the active clause, then pending.
 
-    A failure in the very step that carries out the last clause is that clause's.
+    A failure in the same step that carries out the last clause is the verdict on that clause.
 
     Args:
-        clauses: how many there are.
-        active: index of the active one; `clauses` when none is left.
-        failure: of the command, if it failed.
-        skipped: indices of those that a condition ruled out.
+        clauses: number of clauses.
+        active: index of the active clause; `clauses` when none is left.
+        failure: failure of the command, if it failed.
+        skipped: indices of the clauses that a condition ruled out.
     """
     found = [Verdict.DONE] * active + [Verdict.ACTIVE] + [Verdict.PENDING] * (clauses - active - 1)
     found = [Verdict.SKIPPED if i in skipped else v for i, v in enumerate(found[:clauses])]

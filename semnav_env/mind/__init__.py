@@ -1,1 +1,1 @@
-"""The robot's side: what it believes, what a clause means there, and what an agent is shown."""
+"""The part that runs on a robot: its belief, the grounding of clauses, and the observations."""

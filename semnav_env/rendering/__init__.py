@@ -1,4 +1,4 @@
-"""Pictures of an episode: a frame goes in, pixels, a window or a film come out.
+"""Pictures of an episode: turns frames into pixels, windows or films.
 
 It imports nothing by itself, because most environments are never drawn.
 """

@@ -27,7 +27,7 @@ def load_pygame() -> Any:
 
 
 def open_font(file: Path | None, pixels: int) -> Any:
-    """A font of a size, opened anew if somebody called `pygame.quit()` in between."""
+    """A font of a size; it is opened again if `pygame.quit()` was called in between."""
     pygame = load_pygame()
     try:
         font = _opened_font(file, pixels)

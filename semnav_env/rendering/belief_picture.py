@@ -1,4 +1,4 @@
-"""A picture of what a robot believes: its way, the walls and doors it remembers, its goals."""
+"""A picture of a robot's beliefs: its path, its remembered walls and doors, its goals."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from semnav_features.writing import replacing
 def save_beliefs(
     path: str | Path, beliefs: Sequence[Belief], clauses: int, title: str = ""
 ) -> None:
-    """Draw the way of a robot and what it remembers at its end, odometry frame.
+    """Draw the path of a robot and its memory at the end, odom frame.
 
     Args:
         path: file of the picture (.png, .pdf or .svg).
@@ -48,5 +48,5 @@ def save_beliefs(
 
 
 def _last_goals(beliefs: Sequence[Belief], clauses: int) -> dict[int, tuple[float, float]]:
-    """Where each clause led in the end, by its number from 1."""
+    """The last goal of each clause, by its number from 1."""
     return {each.clause + 1: each.goal.pose[:2] for each in beliefs if each.clause < clauses}

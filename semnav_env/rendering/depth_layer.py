@@ -14,9 +14,9 @@ from semnav_features.clouds import PointCloud, find_door
 from semnav_features.frames import ORIGIN, FloatArray, Pose, points_to_parent, relative
 
 DRAWN_POINTS = 3000
-"""Number of points of a cloud that are drawn, about."""
+"""Approximate number of points of a cloud that are drawn."""
 
-LOOKED_AT = 2.5
+MAX_DOOR_DISTANCE = 2.5
 """Largest distance of a remembered door whose jambs are looked for, metres."""
 
 DOOR_SIGMA = 0.1
@@ -27,7 +27,7 @@ FLOOR = 0.1
 
 
 def cloud_on_the_map(cloud: PointCloud, pose: Pose) -> FloatArray:
-    """Some points above the floor, (x, y) in the world frame, shape (n, 2)."""
+    """A sample of the points above the floor, (x, y) in the world frame, shape (n, 2)."""
     points = cloud.points_robot[cloud.points_robot[:, 2] > FLOOR, :2]
     return points_to_parent(pose, points[:: max(1, len(points) // DRAWN_POINTS)])
 
@@ -36,7 +36,7 @@ def jambs_on_the_map(cloud: PointCloud, tracker: BeliefTracker, pose: Pose) -> F
     """The jambs that a robot finds where it remembers doors, world frame, shape (n, 2)."""
     belief = tracker.belief
     here = tracker.scene().placed(relative(belief.pose, ORIGIN))
-    near = [door for door in here.doors if math.hypot(*door.midpoint) <= LOOKED_AT]
+    near = [door for door in here.doors if math.hypot(*door.midpoint) <= MAX_DOOR_DISTANCE]
     found = [find_door(cloud, door, DOOR_SIGMA) for door in near]
     jambs = [
         jamb

@@ -20,7 +20,7 @@ class Frame:
     """One moment of an episode, all in the world frame, metres and radians.
 
     Attributes:
-        floor_plan: the plan of the episode without what moves.
+        floor_plan: the plan of the episode without moving things.
         robot: the body.
         pose: pose of the footprint's centre.
         lidar: point from which the beams start; None draws no beams, only hits.
@@ -39,7 +39,7 @@ class Frame:
         leaves: hinge and tip of the leaves that can move, shape (m, 4).
         cloud: points of the depth cameras above the floor, (x, y), shape (n, 2).
         jambs: door jambs found among them, shape (k, 2).
-        looked: middles of the cells of floor that a payload has looked at, shape (n, 2).
+        looked: middles of the cells of floor that a payload has inspected, shape (n, 2).
         flags: places that a payload has reported, shape (k, 2).
         in_contact: the body touches something.
         failed: the active clause has failed.
@@ -75,7 +75,7 @@ class Frame:
     failed: bool = False
 
     def __post_init__(self) -> None:
-        """Check what would otherwise fail deep inside the drawing."""
+        """Check values that would otherwise fail deep inside the drawing."""
         if not all(math.isfinite(value) for value in self.pose):
             raise ValueError(f"pose is {self.pose}; it must be finite")
         for name in ("hits", "trail", "route"):

@@ -1,4 +1,4 @@
-"""The map in the picture: what is seen, remembered and aimed at, over the floor plan."""
+"""The map in the picture: scan, memory and goal, over the floor plan."""
 
 from __future__ import annotations
 
@@ -17,11 +17,10 @@ from semnav_features.frames import FloatArray, Point
 from semnav_features.scene import Door, Scene
 
 DRAWN_BEAMS = 90
-"""Number of beams of a dense scan that are drawn, about, evenly spaced: more would blur into one
-another."""
+"""Approximate number of evenly spaced beams of a dense scan that are drawn; more would blur."""
 
 DRAWN_HITS = 270
-"""Number of hits of a dense scan that are drawn, about."""
+"""Approximate number of hits of a dense scan that are drawn."""
 
 
 def draw_map(canvas: Canvas, camera: Camera, frame: Frame) -> None:

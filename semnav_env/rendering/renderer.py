@@ -1,4 +1,4 @@
-"""Has pictures of an environment drawn."""
+"""Draws the pictures of an environment."""
 
 from __future__ import annotations
 
@@ -58,5 +58,5 @@ class Renderer:
             self._viewer = None
 
     def __getstate__(self) -> dict[str, Any]:
-        """Leave out the viewer, which is made anew after unpickling."""
+        """Leave out the viewer, which is created again after unpickling."""
         return {**self.__dict__, "_viewer": None}

@@ -1,4 +1,4 @@
-"""What the picture of an environment shows at one moment."""
+"""Collects the contents of the picture of an environment at one moment."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ from semnav_features.frames import ORIGIN, Point, Pose, compose, points_to_paren
 from semnav_features.scene import Door, Scene
 
 NO_MARKS = PayloadMarks(np.zeros((0, 2)), np.zeros((0, 2)), "")
-"""Of a robot without a payload."""
+"""Marks of a robot without a payload."""
 
 
 class RenderedEnvironment(Protocol):
-    """What of an environment is shown."""
+    """The parts of an environment that a picture shows."""
 
     render_mode: str | None
     tracker: BeliefTracker
@@ -47,7 +47,7 @@ class RenderedEnvironment(Protocol):
 
     @property
     def belief(self) -> Belief:
-        """What the robot believes."""
+        """The robot's belief."""
         ...
 
     @property
@@ -57,7 +57,7 @@ class RenderedEnvironment(Protocol):
 
 
 def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
-    """This moment of the episode, world frame."""
+    """The present moment of an episode as a frame, world frame."""
     tracker, judge, pose = env.tracker, env.judge, env.world.pose
     odometry_frame = compose(pose, relative(env.belief.pose, ORIGIN))
     lidar = compose(pose, tracker.mount)

@@ -1,4 +1,4 @@
-"""Search and rescue: a person detector, what it makes of a house, and when a search is done."""
+"""Search and rescue: a person detector, its map of people, and the judgement of a search."""
 
 from semnav_env.rescue.outcome import SearchOutcome
 from semnav_env.rescue.person_map import PersonMap, PersonTrack

@@ -20,17 +20,17 @@ SEARCH = Command((SearchHouse(),))
 """The command of a search."""
 
 MAX_SEARCH_SECONDS = 1200.0
-"""Time for a search unless told otherwise, seconds: the scripted agents needed 920 s at most."""
+"""Default time limit of a search, seconds: the scripted agents needed 920 s at most."""
 
 VICTIMS = 2
-"""Number of victims unless told otherwise."""
+"""Default number of victims."""
 
 HOUSES = 2**31
-"""Number of different houses that a task draws from."""
+"""Number of different houses from which a task draws."""
 
 
 class HouseTask:
-    """Asks for a search of a generated house, another one each time."""
+    """A task that requests the search of a generated house, another one for each episode."""
 
     def request(self, rng: np.random.Generator) -> EpisodeRequest:
         """A house and the command to search it."""
@@ -38,19 +38,20 @@ class HouseTask:
 
 
 def area_gained(tick: Tick) -> float:
-    """Reward: area of rooms that was looked at for the first time, a tenth for each m^2."""
+    """Reward term: 0.1 for each m^2 of room floor that was seen for the first time."""
     return 0.1 * float(getattr(tick.payload, "gained", 0.0))
 
 
 def people_reported(tick: Tick) -> float:
-    """Reward: 5 for each victim that is reported, -5 for each report of nobody."""
+    """Reward term: 5 for each victim that is reported, -5 for each false report."""
     return 5.0 * float(getattr(tick.payload, "reported", 0.0))
 
 
 SEARCH_REWARDS = AddedTerms(
     {"area": area_gained, "people": people_reported}, RewardWeights(progress=0.0)
 )
-"""Rewards of a search: contact, time, success and failure as ever, area and people."""
+"""Rewards of a search: contact, time, success and failure as in `RewardWeights`, area and
+people."""
 
 
 def search_and_rescue(observation: Any = "semantic", **options: Any) -> SemNavEnv:
@@ -58,7 +59,8 @@ def search_and_rescue(observation: Any = "semantic", **options: Any) -> SemNavEn
 
     Args:
         observation: a mode, which gets the entry "people" beside its own, or an observation type.
-        options: of `SemNavEnv`; without them a robot searches a generated house for two victims.
+        options: arguments of `SemNavEnv`; without them a robot searches a generated house for two
+            victims.
     """
     return SemNavEnv(**_search_options(observation=observation, **options))
 
@@ -66,10 +68,10 @@ def search_and_rescue(observation: Any = "semantic", **options: Any) -> SemNavEn
 def search_and_rescue_vector(
     num_envs: int = 1, *, each: Sequence[Mapping[str, Any]] | None = None, **options: Any
 ) -> SemNavVectorEnv:
-    """Many robots that search, each a house of its own; as `SemNavVectorEnv`.
+    """Many robots that search, each in a house of its own; see `SemNavVectorEnv`.
 
     Args:
-        num_envs: how many robots.
+        num_envs: number of robots.
         each: arguments that differ, one mapping for each robot.
         options: for all robots, and those of `SemNavVectorEnv`.
     """

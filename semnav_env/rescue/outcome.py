@@ -1,4 +1,4 @@
-"""What became of a search."""
+"""The outcome of a search."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from semnav_features.frames import Point
 
 @dataclass(frozen=True)
 class SearchOutcome:
-    """What the judge says of a search; times in seconds since the start, lengths in metres.
+    """The judgement of a search; times in seconds since the start, lengths in metres.
 
     Attributes:
-        coverage: of the floor of each room that can be seen, the share that was, by name.
-        floor_coverage: the same of all its floor, hidden or not.
-        victims: how many people there are.
-        found: how many of them were reported.
-        false_reports: how many reports were of nobody.
-        found_at: when each that was found was reported, in order.
-        report_errors: distance of the report nearest to each that was found from its middle.
+        coverage: seen share of the visible floor of each room, by name.
+        floor_coverage: seen share of all floor of each room, hidden or not.
+        victims: number of victims.
+        found: number of victims that were reported.
+        false_reports: number of reports without a victim.
+        found_at: time of the report of each found victim, in order.
+        report_errors: distance from the middle of each found victim to the nearest report.
     """
 
     coverage: dict[str, float]
@@ -34,7 +34,7 @@ class SearchOutcome:
 
     @property
     def least_coverage(self) -> float:
-        """Coverage of the room that was looked at least; 1 without rooms."""
+        """Coverage of the room with the least coverage; 1 without rooms."""
         return min(self.coverage.values(), default=1.0)
 
     def fulfils(self, rules: SearchRules) -> bool:
@@ -44,13 +44,13 @@ class SearchOutcome:
 
     @property
     def info(self) -> dict[str, Any]:
-        """As plain values, for `info`."""
+        """The outcome as plain values, for `info`."""
         return asdict(self) | {"least_coverage": self.least_coverage}
 
 
 @dataclass(frozen=True)
 class Report:
-    """Somebody was reported: where, world frame, and when, seconds since the start."""
+    """A report of a person: position, world frame, and time, seconds since the start."""
 
     place: Point
     seconds: float
@@ -63,14 +63,14 @@ def judge_reports(
     reports: list[Report],
     rules: SearchRules,
 ) -> SearchOutcome:
-    """Compare reports with the people who are there.
+    """Compare reports with the true victims.
 
     Args:
-        coverage: of each room.
-        floor_coverage: of each room, all of its floor.
+        coverage: seen share of the visible floor of each room.
+        floor_coverage: seen share of all floor of each room.
         victims: middles of the people, world frame.
         reports: in the order of time.
-        rules: how far off a report may be.
+        rules: tolerances of reports.
     """
     near = rules.report_distance
     first, errors = [], []

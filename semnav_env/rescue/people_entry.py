@@ -1,4 +1,4 @@
-"""The entry "people" of the observation: whom the robot believes to have found, and where."""
+"""The entry "people" of the observation: the tracks of the robot's map of people."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from semnav_features.frames import Point, to_local
 from semnav_features.lidar_spec import LidarSpec
 
 FARTHEST = 100.0
-"""Farther places are clipped to this, metres, so that the space is bounded."""
+"""Largest coordinate of a place, metres; farther places are clipped, so that the space is
+bounded."""
 
 COLUMNS = ("is_there", "x", "y", "probability", "reported")
-"""Of a row: whether it counts, place (robot frame, metres), probability of being a person, and
-whether the robot has reported it."""
+"""Columns of a row: whether it counts, position (robot frame, metres), probability of being a
+person, and whether the robot has reported it."""
 
 
 class SeenPerson(NamedTuple):
@@ -49,7 +50,7 @@ class PeopleEntry:
         return gym.spaces.Box(low, high)
 
     def observe(self, moment: Moment) -> NDArray[np.float32]:
-        """Fresh rows."""
+        """Make new rows."""
         rows = np.zeros((self._rows, len(COLUMNS)), np.float32)
         tracks = moment.payload.people.tracks[: self._rows]
         for row, track in zip(rows, tracks, strict=False):

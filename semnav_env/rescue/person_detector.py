@@ -1,4 +1,4 @@
-"""The simulated person detector: what it takes for people, from a true pose."""
+"""The simulated person detector: detections of people from a true pose."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from semnav_features.frames import FloatArray, Pose, compose, points_to_local, t
 from semnav_features.lidar_spec import LidarSpec
 
 RAY_ANGLE = math.radians(0.5)
-"""Angle between the rays that tell what is in view, radians: 5 cm apart at 6 m."""
+"""Angle between the rays that determine what is in view, radians: 5 cm apart at 6 m."""
 
 OUTLINE_POINTS = 24
-"""Number of points of an outline that are asked whether they are in view."""
+"""Number of points of an outline that are tested for being in view."""
 
 OUTLINE_TOLERANCE = 0.08
 """Distance by which a point may lie behind the end of the nearest ray, metres: rays have gaps."""
@@ -29,15 +29,15 @@ class PersonDetector:
     """A camera with a person detector on a robot in a floor plan.
 
     Args:
-        plan: with the people on its floor.
-        settings: what it can do.
+        plan: floor plan with the people on its floor.
+        settings: rates and errors of the detector.
         mount: pose of the camera in the robot frame.
-        rng: chooses the look-alikes, and draws misses, false alarms and errors from then on.
+        rng: chooses the look-alikes, and later draws misses, false alarms and errors.
 
     Attributes:
         victims: outlines of the people, world frame.
         rays: unit vectors of the rays of its field of view, camera frame, shape (n, 2).
-        ranges: where they ended in the last look, metres, shape (n,); inf for nowhere.
+        ranges: lengths of the rays in the last frame, metres, shape (n,); inf for no end.
     """
 
     def __init__(
@@ -61,7 +61,7 @@ class PersonDetector:
         self._middles = [(body.centroid.x, body.centroid.y) for body in bodies]
 
     def look(self, pose: Pose) -> FloatArray:
-        """The places of what it takes for people, robot frame, shape (n, 2).
+        """Detect people; returns their positions, robot frame, metres, shape (n, 2).
 
         Args:
             pose: true pose of the robot, world frame.
@@ -83,7 +83,7 @@ class PersonDetector:
         return np.array(places).reshape(-1, 2)
 
     def _share_in_view(self, points: FloatArray) -> float:
-        """Which share of some points is in view; camera frame, shape (n, 2)."""
+        """Share of some points that is in view; camera frame, shape (n, 2)."""
         settings, spec = self.settings, self._first
         distances = np.hypot(*points.T)
         bearings = np.arctan2(points[:, 1], points[:, 0])
@@ -100,7 +100,7 @@ class PersonDetector:
         return distance * math.cos(bearing), distance * math.sin(bearing)
 
     def _nothing(self) -> tuple[float, float]:
-        """A place in view where nothing is."""
+        """Draw a position in view for a false alarm."""
         k = int(self._rng.integers(len(self.rays)))
         reach = min(self.ranges[k], self.settings.range_max) * self._rng.random()
         x, y = reach * self.rays[k]

@@ -1,8 +1,8 @@
-"""The people that a robot believes it has found: tracks with a probability; robot's side.
+"""The robot's map of people: tracks, each with the probability that it is a person.
 
-Each look changes the odds of a track by how much likelier it is if a person is there, as in the
-binary Bayes filter (Thrun, Burgard and Fox 2005, section 4.2). Looks count for less than
-independent ones, because a classifier errs alike from viewpoints that are alike (Feldman and
+Each frame multiplies the odds of a track by the likelihood ratio of a person being there, as in the
+binary Bayes filter (Thrun, Burgard and Fox 2005, section 4.2). A frame counts for less than
+an independent one, because a classifier makes the same errors from similar viewpoints (Feldman and
 Indelman 2020).
 """
 
@@ -18,7 +18,7 @@ from semnav_features.frames import FloatArray, Point, Pose, compose, points_to_p
 from semnav_features.lidar_spec import LidarSpec
 
 LEAST_STD = 0.05
-"""Standard deviation of a place that a detection right before the robot gives, metres."""
+"""Standard deviation of the position of a detection directly before the robot, metres."""
 
 MAX_LOG_ODDS = 8.0
 """Largest log odds of a track, so that it can still change."""
@@ -29,11 +29,11 @@ VIEW_MARGIN = math.radians(5.0)
 
 @dataclass
 class PersonTrack:
-    """Somebody who may be there.
+    """A possible person.
 
     Attributes:
-        place: (x, y), odometry frame, metres.
-        log_odds: of being a person.
+        place: (x, y), odom frame, metres.
+        log_odds: log odds of being a person.
         weight: inverse variance of the place, 1/m^2.
         reported: whether the robot has reported it.
     """
@@ -45,7 +45,7 @@ class PersonTrack:
 
     @property
     def probability(self) -> float:
-        """Of being a person."""
+        """Probability of being a person."""
         return 1.0 / (1.0 + math.exp(-self.log_odds))
 
     def move_towards(self, place: Point, weight: float) -> None:
@@ -57,16 +57,16 @@ class PersonTrack:
 
 
 class PersonMap:
-    """Joins the detections of many looks.
+    """Joins the detections of many frames.
 
     Args:
-        detector: what the detector can do.
+        detector: rates and errors of the detector.
         settings: how detections become reports.
-        lidar: by which the robot tells what hides a place.
+        lidar: the lidar, by which the robot decides whether a place is hidden.
         mount: pose of lidar and detector in the robot frame.
 
     Attributes:
-        tracks: who may be there.
+        tracks: the possible people.
     """
 
     def __init__(
@@ -80,7 +80,7 @@ class PersonMap:
         self.tracks: list[PersonTrack] = []
 
     def update(self, detections: FloatArray, pose: Pose, ranges: FloatArray) -> list[PersonTrack]:
-        """Take in a look; returns the tracks that are reported now.
+        """Process a frame; returns the tracks that are reported now.
 
         Args:
             detections: places, robot frame, shape (n, 2).
@@ -116,14 +116,14 @@ class PersonMap:
         return near
 
     def _weigh(self, track: PersonTrack, distance: float, found: bool) -> None:
-        """Change the odds by a look that found somebody there, or did not."""
+        """Change the odds of a track by a frame with or without a detection there."""
         hit, false = self._detector.hit_chance(distance), self._detector.false_chance(distance)
         ratio = hit / max(false, 1e-3) if found else max(1.0 - hit, 1e-3) / (1.0 - false)
         changed = track.log_odds + self._settings.independence * math.log(ratio)
         track.log_odds = float(np.clip(changed, -MAX_LOG_ODDS, MAX_LOG_ODDS))
 
     def _in_view(self, place: Point, ranges: FloatArray) -> bool:
-        """Whether the detector looked at a place, camera frame, by what the lidar says."""
+        """Whether a place was in view of the detector, camera frame, by the ranges of the lidar."""
         distance, bearing = math.hypot(*place), math.atan2(place[1], place[0])
         detector, lidar = self._detector, self._lidar
         if not detector.range_min <= distance <= detector.range_max:

@@ -20,23 +20,24 @@ from semnav_features.frames import ORIGIN, Pose, compose, to_parent
 
 
 class PersonSearch:
-    """What a robot carries to search a house; give it as `payload=` to `SemNavEnv`.
+    """The payload of a robot that searches a house; give it as `payload=` to `SemNavEnv`.
 
-    The detector looks a few times a second; the map of people, which is the robot's own and uses
-    its believed pose alone, reports whoever it is sure of from near. Coverage is the judge's.
+    The detector takes a few frames a second. The map of people belongs to the robot and uses only
+    its believed pose; it reports a person of whom it is sure, from a short distance. Coverage is
+    measured by the judge.
 
     Args:
-        detector: what the detector can do.
+        detector: rates and errors of the detector.
         person_map: how detections become reports.
-        rules: what the judge accepts.
+        rules: tolerances of the judge.
 
     Attributes:
         people: the robot's map of people.
-        coverage: of the rooms, by true poses.
-        reports: that the robot has made.
+        coverage: coverage of the rooms, by true poses.
+        reports: reports of the robot.
         gained: area seen for the first time in the last control period, m^2.
-        reported: what the reports of the last control period are worth: 1 for each victim found,
-            -1 for each report of nobody.
+        reported: value of the reports of the last control period: 1 for each victim found, -1 for
+            each false report.
     """
 
     def __init__(
@@ -70,7 +71,7 @@ class PersonSearch:
         self.gained, self.reported = 0.0, 0
 
     def update(self, motion: Motion, tracker: BeliefTracker) -> None:
-        """Take in one control period; the detector looks in some of them.
+        """Process one control period; the detector takes a frame in some of them.
 
         Args:
             motion: the true one.
@@ -103,23 +104,23 @@ class PersonSearch:
 
     @property
     def outcome(self) -> SearchOutcome:
-        """What the judge says of the search so far."""
+        """The judgement of the search so far."""
         names, seen = self.coverage.names, self.coverage
         shares = dict(zip(names, seen.shares.tolist(), strict=True))
         floor = dict(zip(names, seen.floor_shares.tolist(), strict=True))
         return judge_reports(shares, floor, self._victims, self.reports, self.rules)
 
     def marks(self) -> PayloadMarks:
-        """What a picture shows of it: the floor that was seen, and the reports."""
+        """Marks for a picture: the floor that was seen, and the reports."""
         flags = np.array([report.place for report in self.reports]).reshape(-1, 2)
         outcome = self.outcome
         status = f"found: {outcome.found}   least covered: {outcome.least_coverage:.0%}"
         return PayloadMarks(self.coverage.seen_cells, flags, status)
 
     def start_info(self) -> dict[str, Any]:
-        """What `reset` says of it: the robot knows what its detector can do."""
+        """Entries of `info` of `reset`: the robot knows the settings of its detector."""
         return {"person_detector": vars(self.settings).copy()}
 
     def final_info(self) -> dict[str, Any]:
-        """What is known at the end of an episode."""
+        """Entries of `info` at the end of an episode."""
         return {"search": self.outcome.info}

@@ -1,4 +1,4 @@
-"""How much of each room has been looked at, as only the floor plan tells."""
+"""The seen share of each room, for which the floor plan is needed."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class RoomCoverage:
         grid: the cells.
         floor: index of the room of each cell of floor, else the number of rooms, shape
             (rows, columns).
-        shares: of the floor of each that can be seen, the share that has been, shape (n,).
+        shares: seen share of the visible floor of each room, shape (n,).
     """
 
     def __init__(self, plan: FloorPlan, robot: RobotSpec, detector: PersonDetectorSettings) -> None:
@@ -49,12 +49,12 @@ class RoomCoverage:
         self.shares = _shares(self._totals * 0.0, self._totals)
 
     def look(self, eye: Pose, rays: FloatArray, ranges: FloatArray, range_max: float) -> float:
-        """Take a look into account; returns the area that was seen for the first time, m^2.
+        """Add a view of the detector; returns the area that was seen for the first time, m^2.
 
         Args:
             eye: true pose of the detector, world frame.
             rays: unit vectors, detector frame, shape (n, 2).
-            ranges: where they end, metres, shape (n,).
+            ranges: lengths of the rays, metres, shape (n,).
             range_max: of the detector, metres.
         """
         before = self.shares
@@ -63,26 +63,26 @@ class RoomCoverage:
         return float((self.shares - before) @ self._totals) * CELL**2
 
     def shares_of(self, cells: Cells) -> FloatArray:
-        """Of some cells of each room the share that has been seen, 1 of none, shape (n,)."""
+        """Seen share of some cells of each room, 1 for a room without such cells, shape (n,)."""
         return _shares(self._counts(self._seen & cells), self._counts(cells))
 
     @property
     def seen_cells(self) -> FloatArray:
-        """The middles of the cells of rooms that were looked at, world frame, shape (n, 2)."""
+        """The middles of the seen cells of rooms, world frame, shape (n, 2)."""
         seen = self._seen & self._can_be_seen & (self.floor < len(self.names))
         return self.grid.points(np.argwhere(seen))
 
     @property
     def floor_shares(self) -> FloatArray:
-        """Of all floor of each room, hidden or not, the share that has been seen, shape (n,)."""
+        """Seen share of the whole floor of each room, hidden floor included, shape (n,)."""
         return self.shares_of(np.ones_like(self._seen))
 
     def _counts(self, cells: Cells) -> FloatArray:
-        """How many of some cells of floor lie in each room."""
+        """Number of some cells of floor in each room."""
         found = np.bincount(self.floor[cells > 0], minlength=len(self.names) + 1)
         return found[: len(self.names)].astype(np.float64)
 
 
 def _shares(seen: FloatArray, there: FloatArray) -> FloatArray:
-    """Seen cells of those there are, 1 where there is none."""
+    """Seen share of cells, 1 where there are no cells."""
     return np.where(there > 0, seen / np.maximum(there, 1.0), 1.0)

@@ -1,4 +1,4 @@
-"""What a person detector can do, and when a search has been carried out."""
+"""Settings of the person detector, of the map of people, and of a successful search."""
 
 from __future__ import annotations
 
@@ -21,26 +21,26 @@ from semnav_features.checked_fields import (
 class PersonDetectorSettings:
     """A camera with a person detector, on the mount of the lidar, looking forward.
 
-    A planar lidar does not tell somebody on the floor from a piece of furniture: both are outlines.
-    The detector does, with errors. It looks at people and at look-alikes, pieces of furniture that
-    it may take for people from afar. The figures are assumed: of the order of what networks for
-    people do on frames of people who lie down, no product's data sheet.
+    A planar lidar cannot distinguish a person on the floor from a piece of furniture: both are
+    outlines. The detector can, with errors. Look-alikes are pieces of furniture that it may take
+    for people from afar. The figures are assumptions, of the order of the error rates of neural
+    networks on frames of lying people; they are not from a data sheet.
 
     Attributes:
-        range_min: nearer bodies are not seen as a whole, metres.
-        range_max: metres.
+        range_min: least distance of a detection, metres; nearer bodies are not seen as a whole.
+        range_max: largest distance of a detection, metres.
         field_of_view: radians, half of it to each side.
-        rate_hz: looks per second, rounded to whole control periods.
-        least_share: share of a body's outline that must be in view: the rest may be hidden by
+        rate_hz: frames per second, rounded to whole control periods.
+        least_share: share of a body's outline that must be in view; the rest may be hidden by
             walls, furniture, or the body itself.
-        hit_near: probability that a look finds a person in view, near.
-        hit_far: the same at `range_max`; in between it falls evenly.
+        hit_near: probability that a frame finds a near person in view.
+        hit_far: the same at `range_max`; in between it falls linearly.
         look_alikes: share of the pieces of furniture that look like a person from afar.
-        false_near: probability that a look takes a look-alike in view for a person, within
+        false_near: probability that a frame takes a look-alike in view for a person, within
             `clear_range`.
         false_far: the same from farther away.
-        clear_range: distance within which look-alikes are told apart well, metres.
-        clutter: probability that a look sees somebody where nothing is.
+        clear_range: distance within which look-alikes are recognised well, metres.
+        clutter: probability that a frame has a detection where nothing is.
         range_std: standard deviation of the error of a distance, as a share of it.
         bearing_std: standard deviation of the error of a direction, radians.
 
@@ -68,31 +68,31 @@ class PersonDetectorSettings:
         require_order(self, ("range_min", "range_max"))
 
     def hit_chance(self, distance: float) -> float:
-        """Probability that a look finds a person in view so far away, metres."""
+        """Probability that a frame finds a person in view at a distance, metres."""
         share = min(max(distance / self.range_max, 0.0), 1.0)
         return self.hit_near + share * (self.hit_far - self.hit_near)
 
     def false_chance(self, distance: float) -> float:
-        """Probability that a look takes a look-alike in view so far away for a person."""
+        """Probability that a frame takes a look-alike in view at a distance for a person."""
         return self.false_near if distance <= self.clear_range else self.false_far
 
 
 @dataclass(frozen=True)
 class PersonMapSettings:
-    """How detections become reports.
+    """Settings by which detections become reports.
 
     Attributes:
         prior: probability that the first detection at a place is of a person.
-        independence: share of an independent look that each look counts for: looks that follow
-            each other have much in common.
-        same_distance: detections nearer to each other are of one person, metres.
-        behind: distance before a track to which the lidar must see for it to count as in view,
-            metres: the body itself ends the beam, half the length of somebody who lies. With less,
-            large furniture is found now and then and never missed.
+        independence: weight of a frame relative to an independent one: successive frames have much
+            in common.
+        same_distance: detections nearer to each other than this are of one person, metres.
+        behind: distance before a track to which the lidar must see for the track to count as in
+            view, metres: half the length of a lying person, because the body itself ends the beam.
+            With less, large furniture would be found sometimes but never missed.
         report: probability from which on a person is reported.
         drop: probability below which a track is forgotten.
-        report_range: a person is reported from no farther away, metres: one goes near.
-        capacity: most tracks that are kept.
+        report_range: largest distance from which a person is reported, metres.
+        capacity: largest number of tracks.
     """
 
     prior: Share = 0.2
@@ -110,12 +110,12 @@ class PersonMapSettings:
 
 @dataclass(frozen=True)
 class SearchRules:
-    """What the judge accepts as a search that was carried out.
+    """Tolerances of the judge for a search that was carried out.
 
     Attributes:
-        coverage: least share of the floor of each room that was looked at.
+        coverage: least seen share of the visible floor of each room.
         report_distance: largest distance of a report from the middle of a victim, metres.
-        false_reports: most reports of people who are not there.
+        false_reports: largest number of false reports.
     """
 
     coverage: Share = 0.95

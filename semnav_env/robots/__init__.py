@@ -1,4 +1,4 @@
-"""The robots: their bodies, their limits and what an agent may ask of them."""
+"""The robots: their bodies, limits, actions and depth cameras."""
 
 from semnav_env.robots.depth_camera import DepthCamera
 from semnav_env.robots.depth_rig import DepthRig

@@ -1,4 +1,4 @@
-"""What an agent may do: shares of a robot's largest speeds, and their space."""
+"""The actions of an agent: shares of a robot's largest speeds, and their space."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Actions:
     """The actions of one robot.
 
     Args:
-        robot: whose speeds they are shares of.
+        robot: the robot with these largest speeds.
 
     Attributes:
         space: (forward, turn) in [-1, 1], or (forward, left, turn) for a holonomic robot.

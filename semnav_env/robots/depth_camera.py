@@ -1,4 +1,4 @@
-"""A stereo pair as a depth camera: where it looks, what it sees, how it errs."""
+"""A stereo pair as a depth camera: pose, field of view and errors."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ CAMERA = np.dtype(
         )
     ]
 )
-"""How kernels read a `DepthCamera`: an array of shape (1,)."""
+"""The dtype of a `DepthCamera` for kernels: an array of shape (1,)."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class DepthCamera:
     bleeding: float = 0.0
 
     def __post_init__(self) -> None:
-        """Refuse what is no camera."""
+        """Refuse fields that do not make a camera."""
         shares = (*self.missing, self.mismatch, self.bleeding)
         rules = (
             (self.columns >= 1 and self.rows >= 1, "columns and rows must be at least 1"),

@@ -32,8 +32,8 @@ class RobotSpec:
         source: where the numbers come from.
 
     Raises:
-        ValueError: a field of another kind or out of its bounds, or an axle or a lidar that is not
-            on the body; names it.
+        ValueError: a field has another type or is out of its bounds, or the axle or the lidar is
+            not on the body; names it.
     """
 
     name: str

@@ -29,7 +29,7 @@ class TeamActions:
             self.renew(k, env)
 
     def renew(self, index: int, env: SemNavEnv) -> None:
-        """Take in the body of a robot, which may be another one in each episode."""
+        """Update the body of a robot, which may change from episode to episode."""
         robot = env.robot
         self._speeds[index] = robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate
 

@@ -1,4 +1,4 @@
-"""What a vector environment is given for each robot, looked at; errors say which robot is meant."""
+"""Checks the arguments of each robot of a vector environment; errors name the robot."""
 
 from __future__ import annotations
 
@@ -13,11 +13,12 @@ from semnav_env.language.suggest import did_you_mean
 from semnav_env.vector.member import TeamMember
 
 REMEMBERING = ("payload", "rewards")
-"""Arguments that may remember an episode: of what is given for all robots each gets a copy."""
+"""Arguments whose objects may remember an episode; each robot gets a copy of an object for all
+robots."""
 
 
 def made(each: Sequence[Mapping[str, Any]], options: Mapping[str, Any]) -> list[TeamMember]:
-    """The single environments.
+    """Make the single environments.
 
     Args:
         each: arguments of `SemNavEnv` that differ, one mapping for each robot.
@@ -38,7 +39,7 @@ def made(each: Sequence[Mapping[str, Any]], options: Mapping[str, Any]) -> list[
 
 @contextmanager
 def naming_robot(index: int | None) -> Iterator[None]:
-    """Let errors inside say which robot they are about; None if they are about all.
+    """Add the robot's number to errors raised inside; None adds nothing.
 
     Raises:
         ValueError: one was raised inside, and is its cause.
@@ -52,10 +53,10 @@ def naming_robot(index: int | None) -> Iterator[None]:
 
 
 def joined(index: int, common: Mapping[str, Any], own: object) -> dict[str, Any] | None:
-    """The options of `reset` for one robot: those for all, and its own; None if there are none.
+    """Join the options of `reset` for all robots with those of one robot; None if there are none.
 
     Raises:
-        ValueError: its own are no mapping.
+        ValueError: the robot's own options are not a mapping.
     """
     if not isinstance(own, Mapping | None):
         raise ValueError(f"each[{index}] is {own!r:.80}; it must be a dict of options, or None")
@@ -76,7 +77,7 @@ def one_each(name: str, values: Sequence[Any], count: int) -> Sequence[Any]:
 
 
 def one_seed_each(seed: int | Sequence[int | None] | None, count: int) -> Sequence[int | None]:
-    """The seeds of all robots; those after the first count on from it."""
+    """The seeds of all robots; from one seed, the others count up."""
     if seed is None:
         return [None] * count
     return [seed + k for k in range(count)] if isinstance(seed, int) else seed

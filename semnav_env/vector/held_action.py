@@ -1,4 +1,4 @@
-"""What became of many robots while one action was held."""
+"""Results of many robots while one action is held."""
 
 from __future__ import annotations
 
@@ -17,13 +17,12 @@ class HeldAction:
         driven: which robots are driven.
 
     Attributes:
-        going: which robots are to be driven in the next control period: not those whose episode is
-            over by then.
+        going: which robots are driven in the next control period: those whose episode is not over.
         rewards: sums over the control periods, shape (n,).
         terms: the same for each reward term.
-        terminated: whose episode is over.
-        truncated: whose time is over.
-        ends: what infos say of the episodes that are over, by robot.
+        terminated: which episodes have terminated.
+        truncated: which episodes are out of time.
+        ends: final infos of the episodes that are over, by robot.
     """
 
     def __init__(self, driven: Mask) -> None:
@@ -38,8 +37,8 @@ class HeldAction:
 
         Args:
             terms: of the rewards of the robots that were driven.
-            terminated: whose episode is over by now.
-            truncated: whose time is over by now.
+            terminated: which episodes have terminated by now.
+            truncated: which episodes are out of time by now.
         """
         total = np.zeros(len(self.rewards))
         for amount in terms.values():
@@ -57,7 +56,7 @@ class HeldAction:
 
     @property
     def over(self) -> Mask:
-        """Whose episode is over, for one reason or the other."""
+        """Mask of the episodes that are terminated or truncated."""
         return self.terminated | self.truncated
 
 

@@ -15,10 +15,10 @@ Infos = dict[str, Any]
 
 
 def step_infos(known: Infos, terms: dict[str, Any], driven: NDArray[np.bool_]) -> Infos:
-    """What is known after each control period of the robots that were driven.
+    """The infos of the driven robots after a control period.
 
     Args:
-        known: of all robots, see `control_period.info_of`.
+        known: values of all robots, see `control_period.info_of`.
         terms: of the rewards.
         driven: which robots were driven.
     """

@@ -1,4 +1,4 @@
-"""Marks that many threads set and read: which robots are taken by a thread, and which are done."""
+"""Atomic marks of threads: which robots a thread has taken, and which are done."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ Marks = NDArray[np.int64]
 
 
 def set_mark(marks: Marks, place: int) -> bool:
-    """Set a mark; returns whether it was not set before, which is told to one thread only.
+    """Set a mark; returns whether it was not set before, which is True for one thread only.
 
-    What a thread wrote before it set the mark is there for those that find it set.
+    A thread that finds the mark set also sees everything that the other thread wrote before.
     """
     before, marks[place] = marks[place], 1
     return bool(before == 0)
@@ -60,7 +60,7 @@ _load: Any = intrinsic(_code_of_load)
 
 @overload(set_mark)
 def _compiled_set_mark(marks: Marks, place: int) -> Callable[[Marks, int], bool]:
-    """What compiled code calls as `set_mark`."""
+    """The implementation of `set_mark` in compiled code."""
 
     def exchange(marks: Marks, place: int) -> bool:
         return bool(_exchange(marks, place) == 0)
@@ -70,7 +70,7 @@ def _compiled_set_mark(marks: Marks, place: int) -> Callable[[Marks, int], bool]
 
 @overload(is_set)
 def _compiled_is_set(marks: Marks, place: int) -> Callable[[Marks, int], bool]:
-    """What compiled code calls as `is_set`."""
+    """The implementation of `is_set` in compiled code."""
 
     def load(marks: Marks, place: int) -> bool:
         return bool(_load(marks, place) != 0)

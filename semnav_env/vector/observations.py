@@ -1,4 +1,4 @@
-"""The observations of many robots: written in one call, or one by one for types of one's own."""
+"""The observations of many robots: written in one call, or one by one for user-defined types."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ class TeamObservations(Protocol):
     """Makes the observations of a team."""
 
     def renew(self, index: int, env: SemNavEnv) -> None:
-        """Take in a robot that has been reset."""
+        """Update the data of a robot that has been reset."""
 
     def prepare(self, team: Team) -> None:
-        """Say what is to be written while robots are driven for a control period."""
+        """Return the rows that are written while robots are driven for a control period."""
 
     def observe(self, team: Team) -> Any:
-        """Fresh observations of all robots."""
+        """Make new observations of all robots."""
         ...
 
 
@@ -36,7 +36,7 @@ class EntryRows:
         self._tokens = np.stack([env.tokens.ravel() for env in envs]).astype(np.int16)
 
     def renew(self, index: int, env: SemNavEnv) -> None:
-        """Take in the command of a robot that has been reset."""
+        """Update the command of a robot that has been reset."""
         self._tokens[index] = env.tokens.ravel()
 
     def prepare(self, team: Team) -> None:
@@ -76,7 +76,7 @@ class EachObservation:
 
 
 def team_observations(envs: Sequence[SemNavEnv]) -> TeamObservations:
-    """The fast way where it serves, for environments that have been reset."""
+    """Choose the fast implementation where possible, for environments that have been reset."""
     kinds = [env.observation_type for env in envs]
     first = kinds[0]
     if type(first) is EntryObservation and all(

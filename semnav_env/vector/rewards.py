@@ -1,4 +1,4 @@
-"""The rewards of many robots: at once for `RewardWeights`, one by one for rewards of one's own."""
+"""The rewards of many robots: at once for `RewardWeights`, one by one for user-defined rewards."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ where some robots have no such term."""
 
 
 class TeamRewards:
-    """Says what a control period is worth to each robot.
+    """Computes the reward terms of each robot for a control period.
 
     Args:
-        envs: of the robots, with their rewards.
+        envs: environments of the robots, with their rewards.
     """
 
     def __init__(self, envs: Sequence[SemNavEnv]) -> None:
@@ -33,7 +33,7 @@ class TeamRewards:
         self._weights = np.array(each, float).T if len(each) == len(envs) else None
 
     def terms(self, period: Period, actions: NDArray[Any], driven: Mask) -> Terms:
-        """The terms by name, as `RobotLoop.terms`; their sum is the reward.
+        """The terms by name, see `RobotLoop.terms`; their sum is the reward.
 
         Args:
             period: of all robots.

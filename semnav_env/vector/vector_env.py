@@ -1,4 +1,4 @@
-"""The vector environment: many robots, one call."""
+"""The vector environment, which drives many robots in one call."""
 
 from __future__ import annotations
 
@@ -32,17 +32,17 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         envs = gym.make_vec("semnav_env:SemNav-v0", num_envs=64,
                             vectorization_mode="vector_entry_point")
 
-    Every robot observes, bit for bit, what it would observe in an environment of its own, whatever
-    the number of threads. Physics, lidar, understanding and judging run in compiled code, thread by
-    thread; Python is asked only where something has happened.
+    Every robot gets, bit for bit, the observations of an environment of its own, whatever the
+    number of threads. Physics, lidar, understanding and judging run in compiled code in threads;
+    Python runs only after an event.
 
     Infos are arrays with one entry for each robot, and beside each NAME a mask `_NAME`, as
     Gymnasium has them. "pose" has shape (n, 3).
 
     Args:
-        num_envs: how many robots.
+        num_envs: number of robots.
         each: arguments of `SemNavEnv` that differ, one mapping for each robot.
-        threads: as many as there are cores if not given; 1 for none beside the caller's.
+        threads: number of threads; by default one for each core, and 1 for the caller's alone.
         repeat: control periods for which an action holds. Rewards and their terms are summed. A
             robot whose episode is over waits until the others are done with the action.
         autoreset_mode: when a robot whose episode is over begins the next one: in the next step, in
@@ -110,12 +110,12 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         """Begin episodes.
 
         Args:
-            seed: of the first robot, those of the others count on; or one for each.
-            options: of `SemNavEnv.reset`, for all robots; besides "each", one mapping (or None) for
-                each robot, and "reset_mask", which of them are to begin anew.
+            seed: seed of the first robot, from which the others count up; or one for each robot.
+            options: options of `SemNavEnv.reset` for all robots; also "each", one mapping (or None)
+                for each robot, and "reset_mask", which robots begin a new episode.
 
         Raises:
-            ValueError: as `SemNavEnv.reset`, and says which robot is meant; or lists of another
+            ValueError: as `SemNavEnv.reset`, with the number of the robot; or lists of another
                 length.
             gymnasium.error.ClosedEnvironmentError: after `close`.
         """
@@ -127,7 +127,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             raise ValueError(f"reset_mask must be {self.num_envs} booleans, not all False")
         own = one_each("each", common.pop("each", [None] * self.num_envs), self.num_envs)
         if self._team is None and not mask.all():
-            raise ValueError("the first reset must be of all robots: leave reset_mask away")
+            raise ValueError("the first reset must be of all robots: leave out reset_mask")
         infos: Infos = {}
         self._unbegun |= mask
         for k in _indices(mask):
@@ -138,11 +138,11 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
 
     @for_one_thread
     def step(self, actions: Arrays) -> tuple[Any, Arrays, Arrays, Arrays, dict[str, Any]]:
-        """Drive all robots while the action holds; those that begin anew stand still.
+        """Drive all robots while the action holds; robots that begin a new episode stand still.
 
         Raises:
             ValueError: the actions are not finite or have another shape.
-            RuntimeError: before the first `reset`, or while another thread is in one of both.
+            RuntimeError: before the first `reset`, or while another thread is in `reset` or `step`.
             gymnasium.error.ClosedEnvironmentError: after `close`.
         """
         self._check_open()
@@ -150,7 +150,9 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
             raise RuntimeError("call reset() before step()")
         if np.count_nonzero(self._unbegun):
             waiting = np.flatnonzero(self._unbegun)
-            raise RuntimeError(f"reset robots {waiting} first: what they were told was refused")
+            raise RuntimeError(
+                f"reset robots {waiting} first: their command or options were refused"
+            )
         driven = ~self._over
         if self.autoreset_mode is AutoresetMode.DISABLED and not driven.all():
             raise RuntimeError(f"robots {np.flatnonzero(self._over)} must be reset first")
@@ -174,7 +176,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         return tuple(env.render() for env in self.envs)
 
     def call(self, name: str, *arguments: Any, **options: Any) -> tuple[Any, ...]:
-        """What a method of each single environment returns, or the value of an attribute."""
+        """Results of a method of each single environment, or the values of an attribute."""
         found = [env.get_wrapper_attr(name) for env in self.envs]
         return tuple(each(*arguments, **options) if callable(each) else each for each in found)
 
@@ -190,7 +192,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self.read_settings()
 
     def read_settings(self) -> None:
-        """Read anew what was set of the single environments: their rewards and time limits."""
+        """Read the rewards and time limits of the single environments again, after a change."""
         self._rewards = TeamRewards(self.envs)
         self._latest = np.array([env.max_steps for env in self.envs])
 
@@ -219,7 +221,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         return self._team
 
     def _gather(self) -> None:
-        """Take in all robots, which have been reset."""
+        """Gather the data of all robots after a reset."""
         self._team = Team(self.envs, self._threads)
         self._observations = team_observations(self.envs)
 
@@ -267,7 +269,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         return self._add_info(infos, info, index)
 
     def _final(self, infos: Infos, over: Mask) -> Infos:
-        """Infos in which what is known of episodes that are over is said to be final."""
+        """Move the infos of episodes that are over into "final_info"."""
         finals = {k: plain_info(infos, k) for k in _indices(over)}
         infos = without(infos, over) if finals else infos
         for k, info in finals.items():
@@ -276,7 +278,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         return infos
 
     def _show(self, driven: Mask) -> None:
-        """Let pictures go on, and windows show them."""
+        """Update the pictures, and the windows that show them."""
         for k in _indices(driven):
             self.envs[k].renderer.note(self.envs[k], self.envs[k].world.pose)
 

@@ -22,14 +22,14 @@ LAYERS = tuple(ROOTS)
 ABOUT = {
     "semnav_features": "from a scan to a scene, memory, drift; NumPy and Numba only",
     "semnav_features/clouds": "door jambs in point clouds",
-    "semnav_features/explain": "why the extractor turned something down",
+    "semnav_features/explain": "why the extractor rejected a candidate",
     "semnav_features/kernels": "the compiled parts, over plain arrays",
     "semnav_features/mapping": "line maps and scan matching",
     "semnav_features/readers": "logs of real robots",
-    "semnav_env": "the environment, the rules, and what does not fit below",
+    "semnav_env": "the environment, the rules, and parts that no folder below holds",
     "semnav_env/approach": "poses from which a door can be passed",
     "semnav_env/mind/belief": "from ranges, odometry and bumps to pose, scene and goal",
-    "semnav_env/bench": "how fast all this is: `semnav bench`",
+    "semnav_env/bench": "the measurement of speed: `semnav bench`",
     "semnav_env/language": "text to clauses and back",
     "semnav_env/language/corpora": "how much of people's words is understood",
     "semnav_env/language/speech": "from words to the clauses that they mean",
@@ -37,12 +37,12 @@ ABOUT = {
     "semnav_env/world/dynamics": "people, swinging doors, moved furniture",
     "semnav_env/judge/episodes": "frozen episodes and the splits",
     "semnav_env/mind/grounding": "what a clause refers to in a scene, and where it leads",
-    "semnav_env/world/grid": "grids: where a body can be, how far a place is, which cells are near",
+    "semnav_env/world/grid": "grids: reachable poses, distances, costs of paths, cells in view",
     "semnav_env/world/lidar": "the simulated lidar",
-    "semnav_env/mind/localization": "where a robot is in a plan that it knows, by its doors",
+    "semnav_env/mind/localization": "the pose of a robot in a known plan, by its doors",
     "semnav_env/judge": "the judge: whether a command was carried out",
-    "semnav_env/mind": "the robot's side: what it believes and is shown",
-    "semnav_env/world": "what there is: plans, physics, sensors, people",
+    "semnav_env/mind": "the part that runs on a robot: belief, grounding, observations",
+    "semnav_env/world": "the simulated world: plans, physics, sensors, people",
     "semnav_env/world/maps": "floor plans: read, check, find ways",
     "semnav_env/world/maps/generator": "offices drawn from a seed",
     "semnav_env/world/maps/importers": "floor plans from other formats",
@@ -50,10 +50,10 @@ ABOUT = {
     "semnav_env/mind/observations": "the declared layout of an observation, written and read",
     "semnav_env/rendering": "pictures, films, the window",
     "semnav_env/rescue": "searching houses: a person detector, its map of people, coverage",
-    "semnav_env/robots": "bodies, and what an action asks of them",
+    "semnav_env/robots": "bodies and their actions",
     "semnav_env/judge/routes": "routes in words, and the ways to named rooms",
     "semnav_env/world/simulator": "world, lidar and odometry behind `step(twist) -> Sensed`",
-    "semnav_env/judge/tasks": "what episodes are about, and what a step is worth",
+    "semnav_env/judge/tasks": "requests and missions of episodes, and rewards",
     "semnav_env/vector": "many robots in one environment",
     "semnav_env/world/physics": "the physics; the only folder that imports Pymunk",
     "semnav_agents": "scripted, oracle and learned agents, and floors, behind one protocol",
@@ -63,15 +63,15 @@ ABOUT = {
     "semnav_agents/learning/rllib": "training on more than one machine, with RLlib on Ray",
     "semnav_agents/networks": "the layers of learned networks in NumPy, and their files",
     "semnav_agents/planning": "the planner of the scripted agent and the oracle",
-    "semnav_agents/searching": "searching a house: where to look from, and whom to go to",
+    "semnav_agents/searching": "searching a house: poses to look from, and people to approach",
     "semnav_agents/translating": "a learned translator that asks where the grammar refuses",
     "semnav_scripts": "the `semnav` command",
 }
 
 TEMPLATE = """# Architecture
 
-The simulator and the robot meet only at the sensor: what goes from one to the other is what a
-real robot has, too. Each of the folders `features/`, `agents/` and `scripts/` is the root of one
+The simulator and the robot meet only at the sensors: only data that a real robot has, too, go
+from one to the other. Each of the folders `features/`, `agents/` and `scripts/` is the root of one
 package, `semnav_features`, `semnav_agents` and `semnav_scripts`; `semnav_env/` is a package
 itself. Paths below begin with the package.
 
@@ -83,59 +83,58 @@ itself. Paths below begin with the package.
         |                                      |                    (pose, scene, clause, goal)
         +--> true scene --> JUDGE --> reward, end, info
 
-`semnav_env` has four rooms: `language` (text to clauses and back), `world` (what there is, and what
-a lidar measures of it), `mind` (what a robot believes, and where a clause leads it) and `judge`
-(what an episode is about, and whether it was carried out). `language` and `world` import no other
-room, `mind` imports `language`, and `judge` all three; beside them, the environment (`env.py`,
-`vector`) brings them together.
+`semnav_env` has four main packages: `language` (text to clauses and back), `world` (the simulated
+world and its sensors), `mind` (the robot's belief, and the goals of clauses) and `judge` (the
+contents of episodes, and whether they were carried out). `language` and `world` import none of the
+others, `mind` imports `language`, and `judge` imports all three. The environment (`env.py`,
+`vector`) connects them.
 
 `tests/test_layers.py` checks the imports. `semnav_scripts` may import `semnav_agents`, which may
-import `semnav_env`, which may import `semnav_features`, never the other way round. No module
-imports itself by way of others. `semnav_env/mind/belief` imports nothing of the simulator or the
+import `semnav_env`, which may import `semnav_features`, never the other way round. There are no
+import cycles. `semnav_env/mind/belief` imports nothing of the simulator or the
 judge.
 
 [Where do I change what?](extending.md#where-do-i-change-what) names the file for the most frequent
 changes: a door, a reward term, a clause, a sensor, a format, an agent, an entry of the observation.
 
-## Three walks
+## Three walks through the code
 
-**A scan.** `SemNavEnv.step` (`semnav_env/env.py`) is one control period, which stands in
+**A scan.** `SemNavEnv.step` (`semnav_env/env.py`) is one control period, which is written in
 `semnav_env/control_period.py` from top to bottom: drive, sense, understand, judge, reward, end,
 info. The first four are one compiled call, `run_period`, which calls three others. `sense`
 (`semnav_env/world/simulator/sensing.py`) drives the body (`semnav_env/world/physics/drive.py`),
-reckons (`semnav_env/world/simulator/odometry.py`) and scans. `understand`
+updates the odometry (`semnav_env/world/simulator/odometry.py`) and makes the scan. `understand`
 (`semnav_env/mind/belief/understand.py`) extracts the features
 (`semnav_features/kernels/chain.py`), corrects the drift (`semnav_features/kernels/drift.py`),
-remembers walls and doors (`semnav_features/kernels/memory.py`) and notes how far the clause under
-way has come (`semnav_env/mind/grounding/clause_progress.py`). `judge_motion`
-(`semnav_env/judge/judge_record.py`) keeps the judge's count, and writes the `Period`: what became
-of the robot. They return events, such as a completed clause; only where there is one does
-`RobotLoop.think` let `BeliefTracker.think` (`semnav_env/mind/belief/tracker.py`) ground anew and
-`Judge.think` complete the `Period`. Rewards, ends and infos are made of it by functions that take
-numbers for one robot and arrays for many: `SemNavVectorEnv` (`semnav_env/vector/vector_env.py`)
-is the same control period, with `run_period` in threads (`semnav_env/vector/tick.py`) and the
-functions called once. On a real robot `BeliefTracker.update` calls
-`understand` with what was sensed. `EntryObservation.observe`
+remembers walls and doors (`semnav_features/kernels/memory.py`) and updates the progress of the
+active clause (`semnav_env/mind/grounding/clause_progress.py`). `judge_motion`
+(`semnav_env/judge/judge_record.py`) updates the judge's counters, and writes the `Period`: the
+result of this control period. They return events, such as a completed clause. Only after an event
+does `RobotLoop.think` call `BeliefTracker.think` (`semnav_env/mind/belief/tracker.py`), which
+grounds again, and `Judge.think`, which completes the `Period`. Rewards, ends and infos are made
+from the `Period` by functions that take numbers for one robot and arrays for many:
+`SemNavVectorEnv` (`semnav_env/vector/vector_env.py`) is the same control period, with `run_period`
+in threads (`semnav_env/vector/tick.py`) and the functions called once. On a real robot
+`BeliefTracker.update` calls `understand` with the sensor data. `EntryObservation.observe`
 (`semnav_env/mind/observations/observer.py`) makes the arrays that an agent gets.
 
 **A command.** `parse` (`semnav_env/language/parser.py`) turns text into a `Command`, a tuple of
 clauses. `MissionMaker` (`semnav_env/judge/tasks/mission_maker.py`) checks on the floor plan that
 it can be carried out. The robot's `Follower` (`semnav_env/mind/grounding/follower.py`) holds the
-clause under way and asks `semnav_env/mind/grounding/ground.py` where it leads, on what is
-remembered; the answer is a goal: seek, reach, pass or stop. The `Judge`
-(`semnav_env/judge/judge.py`) runs the same follower on the true scene and says what became of
-each clause, a `Verdict`.
+active clause and grounds it on the memory (`semnav_env/mind/grounding/ground.py`); the result is a
+goal: seek, reach, pass or stop. The `Judge` (`semnav_env/judge/judge.py`) runs the same follower on
+the true scene and gives each clause a `Verdict`.
 
 **An action.** `Actions.twist` (`semnav_env/robots/actions.py`) turns the action into a velocity.
 `drive` (`semnav_env/world/physics/drive.py`) bounds its acceleration and lets Chipmunk, the
 engine in Pymunk, move the body (`semnav_env/world/physics/chipmunk.py`). The true motion goes to
 the `JudgeRecord` (`semnav_env/judge/judge_record.py`): crossed doors, reached places, progress.
-`weigh` (`semnav_env/judge/tasks/rewards.py`) says what the step was worth.
+`weigh` (`semnav_env/judge/tasks/rewards.py`) computes the reward of the step.
 
 ## Folders
 
 {total} lines of Python in {files} files; the median file has {median:g}, the longest {longest}.
-A line counts with its comments and docstrings.
+Lines include comments and docstrings.
 
 | folder | lines | what it holds | imports from |
 |---|---|---|---|

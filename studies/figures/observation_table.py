@@ -32,7 +32,7 @@ and the kernels' offsets.
 |---|---|---|---|---|---|
 """
 
-MODES_TITLE = """## Which mode has which entry
+MODES_TITLE = """## Entries of each mode
 
 `observation="semantic"` is the default. `"truth"` has the entries of `"semantic"` without errors.
 `"command"` is for a policy that hears the command: see [below](#hearing-the-command).
@@ -40,16 +40,16 @@ MODES_TITLE = """## Which mode has which entry
 
 TEXT = """## Hearing the command
 
-In the other modes the environment has grounded the command already: `goal` says what the words
-refer to, and `clause` how far they have been carried out. `observation="command"` has neither,
-nor anything that depends on them: two robots that drove alike observe the same, whatever they
-were told, but for the tokens in `command` and for `told_ways` (a test). In their place it has
-what a learner would otherwise have to rebuild from scan after scan: remembered walls, the
-hallway's axis, the arms that leave it. Where a *clause* began is not among them, for that place
-moves at the moment at which the grounding takes the clause before for done; `start` is where the
-command began.
+In the other modes the environment has grounded the command already: `goal` is the referent of
+the words, and `clause` the active clause. `observation="command"` has neither of the two, nor any
+entry that depends on them. Two robots that drove the same path observe the same, whatever their
+commands, except for the tokens in `command` and for `told_ways` (a test checks this). Instead it
+has entries that a learner would otherwise have to build from many scans: remembered walls, the
+axis of the corridor, and the arms that leave it. The pose at which a *clause* began is not an
+entry, because it would show when the grounding takes the clause before for done; `start` is the
+pose at which the command began.
 
-A named room is out of sight. The robot is told beforehand how to get there, as places 1.5 m apart
+A named room is out of sight. The robot gets the way there before it drives, as places 1.5 m apart
 and the door at the end: `told_ways` and `told_doors`. They are given at the start and do not
 change; on a robot they are the `ways=` of `BeliefTracker.begin`.
 
@@ -67,8 +67,8 @@ observation, info = env.reset(seed=0)
 assert observation["instruction"] == info["instruction"]
 ```
 
-The hallway is surveyed anew for each observation, which costs more than all other entries: see the
-measurement in [speed](speed.md#in-training).
+The corridor is surveyed again for each observation, which costs more than all other entries
+together: see the measurement in [speed](speed.md#in-training).
 """
 
 
@@ -79,7 +79,7 @@ def page() -> str:
     rows = [
         *map(_row, entries),
         f"| `scan` | beams (TiM561: {scan.shape[0]}) | range | 0 to the lidar's range | m | "
-        "one range a beam; no return reads as the lidar's range |",
+        "one range for each beam; a missing return reads as the lidar's range |",
         f"| `command` | {tokens.shape[0]} | 8 clauses of 5 tokens | "
         f"0 to {tokens.nvec.max() - 1} | | the command, see "
         "[as numbers](language_reference.md#as-numbers) |",

@@ -14,9 +14,9 @@ PAGE = IMAGES.parent / "rules.md"
 
 TITLE = """# Rules
 
-Robot and judge follow the same rules, which `SemNavEnv(rules=Rules(...))` takes: what a door is,
-what words refer to, and what is accepted. Distances are those of the robot's centre. How they come
-together, [commands](commands.md) says.
+Robot and judge follow the same rules, which are set by `SemNavEnv(rules=Rules(...))`: what a door
+is, what words refer to, and what the judge accepts. Distances are those of the robot's centre.
+[How commands are understood](commands.md) says how the rules work together.
 """
 
 
@@ -31,12 +31,16 @@ def _section(rules: type) -> str:
     rows = [f"| `{f.name}` | {f.default:.3g} | {said[f.name]} |" for f in fields(rules)]
     first = inspect.cleandoc(rules.__doc__ or "").split("\n", 1)[0]
     return "\n".join(
-        (f"## {rules.__name__}\n\n{first}\n\n| rule | usual | meaning |\n|---|---|---|", *rows, "")
+        (
+            f"## {rules.__name__}\n\n{first}\n\n| rule | default | meaning |\n|---|---|---|",
+            *rows,
+            "",
+        )
     )
 
 
 def _attributes(rules: type) -> dict[str, str]:
-    """What a class's docstring says of each of its fields."""
+    """The description of each field in a class's docstring."""
     text = inspect.cleandoc(rules.__doc__ or "").split("Attributes:\n")[1].split("\n\n")[0]
     found = re.findall(r"^    (\w+): (.*(?:\n {5,}.*)*)", text, flags=re.MULTILINE)
     return {name: " ".join(said.split()) for name, said in found}

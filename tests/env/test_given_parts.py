@@ -72,18 +72,18 @@ def test_terms_can_be_added_to_rewards_of_ones_own() -> None:
 
 
 def test_a_term_with_a_name_that_is_taken_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"'progress'.*name yours anew"):
+    with pytest.raises(ValueError, match=r"'progress'.*choose other names"):
         AddedTerms({"progress": yaw_cost})
 
 
 @pytest.mark.parametrize("base", [AddedTerms({"yaw": yaw_cost}), AddedTerms({}, RewardWeights())])
 def test_a_name_that_a_nested_base_has_taken_is_refused(base: AddedTerms) -> None:
-    with pytest.raises(ValueError, match="name yours anew"):
+    with pytest.raises(ValueError, match="choose other names"):
         AddedTerms({"yaw": yaw_cost, "time": yaw_cost}, base)
 
 
 def test_a_name_that_rewards_of_ones_own_have_taken_is_refused() -> None:
-    with pytest.raises(ValueError, match=r"'speed'.*name yours anew"):
+    with pytest.raises(ValueError, match=r"'speed'.*choose other names"):
         driven(1, rewards=AddedTerms({"speed": yaw_cost}, OnlySpeed()))
 
 
@@ -134,7 +134,7 @@ def test_an_extra_entry_stands_beside_those_of_the_mode(mode: str) -> None:
 def test_an_entry_with_a_name_that_is_taken_is_refused() -> None:
     entry = NearestHit()
     entry.name = "walls"
-    with pytest.raises(ValueError, match=r"'walls'.*name yours anew"):
+    with pytest.raises(ValueError, match=r"'walls'.*choose other names"):
         EntryObservation("semantic", extra=[entry])
 
 

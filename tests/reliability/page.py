@@ -1,4 +1,4 @@
-"""The page about reliability: budgets from the code, and what the last soak measured."""
+"""The page about reliability: budgets from the code, and the results of the last soak test."""
 
 from __future__ import annotations
 
@@ -41,49 +41,54 @@ RESULTS = Path(__file__).with_name("soak.json")
 TEMPLATE = """\
 # Reliability
 
-What is wrong is refused at once, in one line that names what is wrong and what would be right;
-what was accepted works.
+Bad input is refused at once, with one line that names what is wrong and what would be right.
+Input that was accepted works.
 
-- **Settings** (`RobotSpec`, `LidarSpec`, `RewardWeights`, `Dynamics` and all others) say in their
-  annotations what each field takes, and check it when they are made
-  (`semnav_features/checked_fields.py`). A body that Chipmunk could not carry is never made.
-- **Files** are written by one writer (`semnav_features/writing.py`): to a part beside the file,
-  which takes its place when it is complete and on the disk. A full disk, an error, Ctrl-C or a kill
-  leaves the old file as it was. Files of lines keep the lines so far, and a dataset the episodes
-  so far, if the end is an error or Ctrl-C. After a kill a part may stay (`*.part*`). Of a command
-  that writes several files, some may be new and some old, each of them whole.
-- **Two writers** of one file never mix: parts have names that nobody can know before, and are new
-  files, so no link is followed that somebody has put there. The file is a whole one, of the writer
-  that was done last. What takes long, files of lines and datasets, has one writer at a time
-  (`semnav_features/sole_writer.py`): a second one is refused before it begins, and says so. A link
-  in the place of the file itself is followed if it is yours or root's, and refused otherwise.
-- **Readers** have a budget of bytes, below. What does not end (a pipe, an alias of aliases, a
-  view that counts for ever) is refused before it is read.
-- **Compiled kernels** that cannot be kept, or cannot be read again, are kept in a temporary
-  folder, or compiled anew; a line on stderr says so. Each file begins with a checksum, for one
-  wrong bit of machine code would raise nothing. `semnav doctor` removes what is damaged, what
-  killed writers left behind, and the kernels of sources that nobody has used for a month; what it
-  prints belongs into a bug report. Of processes that start at once, one compiles a kernel and the
-  others wait for it.
+- **Settings** (`RobotSpec`, `LidarSpec`, `RewardWeights`, `Dynamics` and all others) declare in
+  their annotations what each field takes, and check it when they are made
+  (`semnav_features/checked_fields.py`). A body that Chipmunk could not simulate is never made.
+- **Files** are all written by one function (`semnav_features/writing.py`): first to a partial file
+  beside the target, which replaces the target when it is complete and on the disk. A full disk, an
+  error, Ctrl-C or a kill leaves the old file as it was. After an error or Ctrl-C, a file of lines
+  keeps the lines so far, and a dataset keeps the episodes so far. After a kill a partial file may
+  remain (`*.part*`). If a command writes several files, some may be new and some old, but each
+  of them is complete.
+- **Two writers** of one file never mix. Partial files have names that cannot be predicted and are
+  always created anew, so a symbolic link that somebody has put there is not followed. The file is
+  the complete one of the writer that finished last. Files of lines and datasets take long, so they
+  have one writer at a time (`semnav_features/sole_writer.py`): a second writer is refused before it
+  begins, with a message. If the target itself is a symbolic link, it is followed if it belongs to
+  you or to root, and refused otherwise.
+- **Readers** have a budget of bytes, see below. Input without an end (a pipe, an alias of aliases,
+  a view that counts without end) is refused before it is read.
+- **Compiled kernels** that cannot be written to the cache are kept in a temporary folder; those
+  that cannot be read again are compiled anew. A line on stderr says so. Each file begins with a
+  checksum, because one wrong bit of machine code would raise no error. `semnav doctor` removes
+  damaged files, files that killed writers left behind, and the kernels of sources that have not
+  been used for a month. Please include its output in a bug report. If several processes start at
+  once, one compiles a kernel and the others wait for it.
 - **The cache of kernels** is the folder `semnav-env-kernels` in the one that `SEMNAV_CACHE_DIR` or
-  `NUMBA_CACHE_DIR` names, else in the user's cache directory. Nothing outside it is ever removed,
-  and in it only folders that are named by 20 hexadecimal digits and hold nothing but files of
-  kernels.
-- **Kernels are code**: whoever can write there can run code as you, for what is read is machine
-  code in a pickle, and the checksum keeps nobody out. So the cache and the folders of its versions
-  must be yours, no links, and closed to group and others; they are made so (mode 0700) whatever
-  the umask. The folders above must be yours or root's, and closed likewise, unless they are
-  sticky, such as /tmp; a group of yours alone may write there. Relative paths are not taken, nor
-  `~/.cache` where nobody knows your home. Where anything is amiss, kernels are kept in a temporary
-  folder of your own, and a line on stderr says why. Let others share sources, not a cache.
+  `NUMBA_CACHE_DIR` names, else in the user's cache directory. Nothing outside it is ever removed.
+  Inside it, a folder is removed only if its name has 20 hexadecimal digits and it holds nothing but
+  files of kernels.
+- **Kernels are code**: anybody who can write to the cache can run code as you, because a cached
+  kernel is machine code in a pickle, and the checksum does not prevent this. Therefore the cache
+  and its folders must belong to you, must not be symbolic links, and must be closed to group and
+  others. They are made so (mode 0700) whatever the umask. The folders above must belong to you or
+  to root. They must be closed to other writers as well, unless they are sticky, such as /tmp; only
+  a group of which you are the only member may write there. Relative paths are refused, and so is
+  `~/.cache` if the home directory is not known. If a condition is not met, kernels are kept in a
+  temporary folder of your own, and a line on stderr says why. Share sources with others, but not
+  a cache.
 - **Ctrl-C** ends every command with one line and exit code 130, SIGTERM with one line and 143. This
-  holds from the command's own first line on, not while Python itself starts.
-- **Threads**: one thread at a time may use an environment, a vector environment, a simulator or
-  a `BeliefTracker`; a second one that comes meanwhile gets a `RuntimeError`, and one after the
-  other is fine. Threads may each have their own. `extract` may be called from any number at once.
-- **Forks**: a vector environment that is forked makes new threads in the child, and both drive on
-  alike. Do not fork while another thread is in the middle of a step: the child gets the
-  `RuntimeError`.
+  applies from the command's own first line on, not while Python itself starts.
+- **Threads**: only one thread at a time may use an environment, a vector environment, a simulator
+  or a `BeliefTracker`. A second thread that uses it at the same time gets a `RuntimeError`; one
+  after the other is fine. Each thread may have its own. `extract` may be called from any number
+  of threads at once.
+- **Forks**: a vector environment that is forked makes new threads in the child, and parent and
+  child continue with the same results. Do not fork while another thread is in the middle of a step:
+  the child gets the `RuntimeError`.
 
 ## Budgets of the readers
 
@@ -92,62 +97,65 @@ what was accepted works.
 ## Memory by geometry
 
 Grids and tables over a floor plan have one budget of {cells:,} cells
-(`semnav_env/world/maps/cell_budget.py`): ways, what a body reaches, the floor that is seen in a
-search, the walls near a lidar, points on walls. Where a plan needs more, the grid gets coarser,
-for ways up to {ways:g} m and for what a body reaches up to {reach:g} m; a plan for which that is
-too coarse to find doors, of more than {ways_area:,.0f} m2 and {reach_area:,.0f} m2, is refused in
-one line
-that names its extent. Plans of up to {usual:,.0f} m2 keep their grid of {spacing:g} m.
-Tests hold every use of such plans, among them an episode, below a gigabyte
-(`tests/reliability/test_geometry_budgets.py`). Pictures have a fixed size, an exported map at most
-{pixels:,} pixels. Time has no such budget: a search looks around in every
-{standpoint:g} m of the floor.
+(`semnav_env/world/maps/cell_budget.py`). It covers shortest paths, the places that a body reaches,
+the floor that is seen in a search, the walls near a lidar, and points on walls. Where a plan needs
+more cells, the grid becomes coarser: up to {ways:g} m for shortest paths and up to {reach:g} m for
+the places that a body reaches. A plan for which this is too coarse to find doors is refused in one
+line that names its extent. The limits are {ways_area:,.0f} m2 for shortest paths and
+{reach_area:,.0f} m2 for the places that a body reaches. Plans of up to {usual:,.0f} m2 keep their
+grid of {spacing:g} m. Tests check that every use of such plans, among them an episode, takes less
+than a gigabyte (`tests/reliability/test_geometry_budgets.py`). Pictures have a fixed size, and an
+exported map has at most {pixels:,} pixels. Time has no such budget: a search looks around from
+every {standpoint:g} m of the floor.
 
 ## Texts of files
 
-What a file says is printed as text: control characters, escape sequences and marks that turn the
-direction of writing are written out, such as `\\x1b` (`semnav_scripts/printable.py`).
+Text from a file is printed as plain text: control characters, escape sequences and marks that
+change the direction of writing are printed as codes, such as `\\x1b`
+(`semnav_scripts/printable.py`).
 
 ## Bad inputs
 
-Bad inputs of every area: hostile values for the fields of all settings, and driving with those
-that were not refused; hostile actions, options, texts and command lines; sound files of every
-kind, damaged at random. Each is tried in a child process with a limit of time and memory. An
-input fails if it ends in a traceback, a message of several lines or one that names no file, a
-NaN, more than a gigabyte, or never.
+The table counts bad inputs of every area. They are hostile values for the fields of all settings,
+and drives with the values that were not refused; hostile actions, options, texts and command lines;
+and valid files of every kind, damaged at random. Each is tried in a child process with a limit of
+time and memory. An input fails if it ends in a traceback, a message of several lines, a message
+that names no file, a NaN, more than a gigabyte of memory, or not at all.
 
 {inputs}
 
 ## Interrupted writers
 
-Every command that writes, in a folder with older files of the same names: on a disk that is full
-after some kilobytes; killed while it writes a file, when it opens, renames or removes one, or at
-any time; interrupted by Ctrl-C and SIGTERM likewise. A strike fails if a file that was there is
-gone, if a file under its final name is neither the old nor a whole new one, if a part stays that no
-kill excuses, or if the command ends in anything but one line that names the file.
+Every command that writes files is run in a folder with older files of the same names, and is
+interrupted in one of three ways. The disk is full after some kilobytes; the process is killed while
+it writes, opens, renames or removes a file, or at any time; or the process gets Ctrl-C or SIGTERM
+at such moments. A strike fails in four cases: an earlier file is gone; a file under its final name
+is neither the old nor a complete new one; a partial file remains although nothing was killed; or
+the command ends in anything but one line that names the file.
 
 {strikes}
 
 ## Signals at random moments
 
-Ctrl-C and SIGTERM to processes of their own, at any moment from the command's first line to the end
-of its process. One fails if it ends in a traceback or in anything but one line, or leaves a part.
+Ctrl-C and SIGTERM are sent to a process at a random moment between the command's first line and
+the end of the process. A signal fails if the process ends in a traceback or in anything but one
+line, or leaves a partial file.
 
 {signals}
 
 ## Long drives
 
-{steps:,} steps of a robot that drives at random, in {episodes:,} episodes on {floors:,} floors,
-of which each was generated for the drive: resident memory was {warm:.0f} MB when the {kept} floors
-that a process keeps had been made, and {memory:.0f} MB at the end. Between them the fields of
-distances that it keeps fill up, to {fields:.0f} MB at most. Every observation and reward was
-finite. It took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how fast a step is.
+A robot took {steps:,} random steps in {episodes:,} episodes on {floors:,} floors, each of which
+was generated for this drive. A process keeps {kept} floors in memory. The resident memory was
+{warm:.0f} MB when these had been made, and {memory:.0f} MB at the end. In between, the memory for
+distance fields fills up, to {fields:.0f} MB at most. Every observation and reward was finite. The
+drive took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how fast a step is.
 
-`make soak` measures all of it anew and writes this page; `make soak COUNT=100000 STRIKES=100
-STEPS=50000000` tries more. A share of it is part of the tests (`tests/reliability`), with the
-bombs: small files that ask for endless time or gigabytes. In each place of a file of each text
-format they try runs of {run:,} bytes of one character or one short token, of which there are
-{tokens}: none takes longer than {seconds_each:.0f} s of processor time.
+`make soak` measures all of this again and writes this page; `make soak COUNT=100000 STRIKES=100
+STEPS=50000000` tries more. A part of it runs with the tests (`tests/reliability`), together with
+small files that ask for endless time or gigabytes ("bombs"). For each text format, runs of
+{run:,} bytes of one character or one short token ({tokens} of these) are put in each place of a
+file: none takes longer than {seconds_each:.0f} s of processor time.
 """
 
 BUDGETS = (
@@ -156,19 +164,19 @@ BUDGETS = (
     ("image of a map", f"{MAX_IMAGE_BYTES:,} bytes, {MAX_PIXELS:,} pixels"),
     ("DXF", f"{MAX_ENTITIES:,} entities, {MAX_BLOCKS:,} inserted blocks"),
     (
-        "SVG, what `<use>` repeats included",
+        "SVG, with repetitions by `<use>`",
         f"{MAX_ELEMENTS:,} elements, {MAX_NUMBERS:,} numbers in outlines, {MAX_ARCS:,} arcs",
     ),
     (
-        "an element of an SVG",
+        "one element of an SVG",
         f"numbers of {MAX_DIGITS} characters, transforms of {MAX_TRANSFORM:,}, a style sheet of "
         f"{MAX_STYLE_SHEET:,}, {MAX_CLOSINGS} closings of one line",
     ),
     ("walls of a drawing", f"{MAX_SEGMENTS:,} segments"),
     ("episodes", f"{MAX_EPISODES:,} bytes, also when decompressed"),
-    ("text log", f"a line at a time; in gzip at most {MAX_EXPANSION} times the size of the file"),
-    ("npz", f"a row at a time; {MAX_ARRAY:,} bytes of an array that is read as a whole"),
-    ("ROS bag, MCAP", f"a chunk at a time; {MAX_CHUNK_BYTES:,} bytes of one when decompressed"),
+    ("text log", f"one line at a time; in gzip at most {MAX_EXPANSION} times the size of the file"),
+    ("npz", f"one row at a time; {MAX_ARRAY:,} bytes of an array that is read as a whole"),
+    ("ROS bag, MCAP", f"one chunk at a time; {MAX_CHUNK_BYTES:,} bytes of a decompressed chunk"),
     ("ROS bag compressed as a whole", f"at most {MAX_EXPANSION} times the size of the file"),
     ("trained agent", f"{MAX_FILE_SIZE:,} bytes"),
 )

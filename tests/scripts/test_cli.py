@@ -50,7 +50,7 @@ def test_a_demo_says_why_the_robot_gave_up(capsys, monkeypatch):
     monkeypatch.setattr("semnav_scripts.demo.steps", lambda *_: [SimpleNamespace(info=end)])
     words = ("demo", "go through the second door on the right")
     code, said, _ = run(capsys, *words)
-    assert (code, said.splitlines()[-1]) == (1, f"the robot took it for impossible: {why}")
+    assert (code, said.splitlines()[-1]) == (1, f"the robot found the command impossible: {why}")
     assert json.loads(run(capsys, *words, "--json")[1])["impossible"] == why
 
 

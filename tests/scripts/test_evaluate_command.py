@@ -40,7 +40,7 @@ def test_evaluate_reports_shares_causes_and_failures(
     words = ["heidelberg", "--seeds", "1", "--recheck", "--pictures", str(pictures)]
     assert main(["evaluate", *words, "--out", str(out)]) == 0
     text = capsys.readouterr().out
-    assert "second opinion: 0 of 4 episodes judged otherwise" in text
+    assert "second opinion: 0 of 4 episodes judged differently" in text
     assert "stopped short (not done: the first door on the right" in text
     assert "drew 4 failures" in text
     for picture in pictures.iterdir():
@@ -163,7 +163,7 @@ def test_a_demo_of_an_impossible_episode_succeeds_by_saying_so(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["demo", "--episode", "test_infeasible-00000"]) == 0
-    assert "the robot took it for impossible: no fourth door" in capsys.readouterr().out
+    assert "the robot found the command impossible: no fourth door" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -174,7 +174,7 @@ def test_a_demo_of_an_impossible_episode_succeeds_by_saying_so(
         (["--episode", "seven"], "no split 'seven'"),
         (["stop", "--episode", "test_real-00000"], "leave out command 'stop'"),
         (["--episode", "test_real-00000", "--seed", "1"], "leave out --seed 1"),
-        ([], "say what the robot is to do, or give --episode ID"),
+        ([], "give a command for the robot, or --episode ID"),
     ],
 )
 def test_a_demo_has_a_command_or_an_episode(

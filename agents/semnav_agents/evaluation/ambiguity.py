@@ -14,7 +14,7 @@ def grammar_of(episode: Episode) -> Interpreter:
 
 
 def misreading(episode: Episode, interpreter: Callable[[Episode], Interpreter] = grammar_of) -> str:
-    """What is wrong with the readings that an interpreter finds; empty if they are right."""
+    """The error in the readings that an interpreter finds; empty if they are right."""
     try:
         found = interpreter(episode).interpret(episode.command)
     except CommandError as error:

@@ -1,4 +1,4 @@
-"""Kept results of evaluations: what a leaderboard needs to know of each episode."""
+"""Kept results of evaluations: the values of each episode that a leaderboard needs."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from semnav_features.validation import clipped, require, shown
 from semnav_features.writing import write_file
 
 NOT_KNOWN = Provenance(UNKNOWN, "", UNKNOWN).row()
-"""What results say that were kept before they said by what they were made."""
+"""Provenance of results that were kept before results recorded it."""
 
 MAX_BYTES = 64_000_000
 """Size of the largest file of results that is read, bytes, also when decompressed."""

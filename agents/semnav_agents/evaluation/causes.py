@@ -1,4 +1,4 @@
-"""Why an episode failed, in words."""
+"""The cause of a failed episode, in words."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from semnav_env.mind.grounding.goal import Goal, door_of
 
 
 def cause_of(judge: Judge, metrics: Metrics, impossible: str | None) -> str:
-    """Why an episode failed; empty if it did not.
+    """The cause of a failure, in words; empty after success.
 
     Args:
         judge: the judge of the episode.

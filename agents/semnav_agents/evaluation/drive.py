@@ -31,10 +31,10 @@ class Drive:
         metrics: all measures.
         cause: why it failed, in words; empty after success.
         robot: the body that drove.
-        social: how near people came, see `World.social`.
+        social: distances to people, see `World.social`.
         impossible: why the robot believed at the end that the command is impossible; empty if it
             did not believe so.
-        belief: what it remembered, and where it was going, at the end.
+        belief: remembered doors and the agent's goal at the end.
     """
 
     recording: Recording
@@ -54,10 +54,10 @@ class Drive:
         return "" if self.metrics.success else type(clauses[active]).__name__
 
     def as_infeasible(self) -> Drive:
-        """The same drive, judged as that of a command that is impossible.
+        """The result of the same drive for an impossible command.
 
-        It is a success if the robot stood still, said that the command is impossible, and had made
-        no mistake before. There is no true route to weigh it by, so it has no SPL and SDTW.
+        The drive is a success if the robot stood still, said that the command is impossible, and
+        made no mistake before. Without a true route it has no SPL and sDTW.
         """
         right = recognised_impossible(self.judge, self.impossible)
         said = self.impossible or "did not say that it is impossible"
@@ -79,7 +79,7 @@ class Drive:
         return events_of(self.recording, self.judge.mission.floor_plan)
 
     def save_picture(self, path: str | Path, title: str = "") -> None:
-        """Write a picture: plan, true route, path driven, contacts, goals, what was believed."""
+        """Write a picture: plan, true route, driven path, contacts, goals, belief at the end."""
         from semnav_env.judge.metrics.picture import (
             save_episode,  # matplotlib only when it is wanted
         )
@@ -90,7 +90,7 @@ class Drive:
 
 
 def recognised_impossible(judge: Judge, impossible: str | None) -> bool:
-    """Whether a robot answered an impossible command rightly, see `Drive.as_infeasible`.
+    """Whether a robot answered an impossible command correctly, see `Drive.as_infeasible`.
 
     Args:
         judge: the judge, after the end.
@@ -128,7 +128,7 @@ def drive(
 
 
 def _final_belief(env: SemNavEnv, agent: Agent) -> FinalBelief:
-    """What the robot believes now; its believed pose is put where it truly is."""
+    """The robot's belief, moved so that the believed pose is the true pose."""
     odometry_frame = compose(env.world.pose, relative(env.belief.pose, ORIGIN))
     own = agent.own_goal() if isinstance(agent, GoalHolder) else env.belief.goal.pose
     doors = env.tracker.scene().placed(odometry_frame).doors

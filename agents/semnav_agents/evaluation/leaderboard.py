@@ -72,7 +72,7 @@ class Standing:
 def standings(attempts: Iterable[Attempt]) -> list[Standing]:
     """The rows of the leaderboard, by split and body, the highest success first.
 
-    What an agent did under other rules is a row of its own.
+    Results of an agent under other rules are a separate row.
 
     Raises:
         ValueError: an episode that the same agent drove twice.

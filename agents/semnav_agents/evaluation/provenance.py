@@ -126,7 +126,7 @@ def commit() -> str:
 
 
 def _git(folder: Path, *words: str) -> str:
-    """What git prints; empty if it fails or is not there."""
+    """The output of git; empty if git fails or is not installed."""
     command = ["git", "-C", str(folder), *words]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=False)

@@ -1,4 +1,4 @@
-"""Runs the episodes of a suite, if wanted in several processes."""
+"""Runs the episodes of a suite in one or several processes."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from semnav_features.interruption import for_this_process_alone
 
 @dataclass(frozen=True)
 class Extras:
-    """What else to do with a driven episode.
+    """Further outputs of a driven episode.
 
     Attributes:
         recheck: judge it a second time, by other code.
@@ -45,10 +45,10 @@ class Extras:
 
 
 NO_EXTRAS = Extras()
-"""Only drive and measure."""
+"""No further outputs: only drive and measure."""
 
 TRIAL_SECONDS, EPISODE_SECONDS = 120.0, 300.0
-"""Time limits of a trial and of a frozen episode, whose ways are longer; simulated seconds."""
+"""Time limits of a trial and of a frozen episode, whose routes are longer; simulated seconds."""
 
 STEPS_PER_FILM_FRAME = 15
 """Steps between the frames of a failure's film, one second: it runs five times as fast as the
@@ -60,7 +60,7 @@ MAX_NAME_LENGTH = 90
 
 @dataclass(frozen=True)
 class SuiteSetup:
-    """What all episodes of a suite share; see `run_suite`."""
+    """Settings that all episodes of a suite share; see `run_suite`."""
 
     agent: AgentSource
     robot: str | RobotSpec
@@ -87,7 +87,7 @@ def run_suite(
         seeds: each gives a trial's start pose, sensor noise and odometry drift.
         workers: processes; results do not depend on it.
         extras: what else to do with each episode.
-        dynamics: what else moves.
+        dynamics: people, doors and furniture that move.
 
     Raises:
         ValueError: there is no such agent, or with several workers one that other processes
@@ -131,7 +131,7 @@ class SuiteRunner:
         return result
 
     def _film(self, trial: Trial | Episode, seed: int, env: SemNavEnv, folder: Path) -> None:
-        """Drive a failure once more, which goes the same way, and film it."""
+        """Drive a failure once more, with the same result, and film it."""
         film = Film(env, STEPS_PER_FILM_FRAME)
         driven = drive(env, self._agent, seed, reset_options(trial, seed, env), film)
         name = trial.id if isinstance(trial, Episode) else trial.command
@@ -256,7 +256,7 @@ def scattered(
 
 
 class _Worker:
-    """What a process of the pool keeps between jobs."""
+    """Data that a process of the pool keeps between jobs."""
 
     pickled: bytes
     runner: SuiteRunner | None = None

@@ -12,12 +12,12 @@ from semnav_features.frames import Pose
 
 @dataclass(frozen=True)
 class Trial:
-    """A command and about where it is given.
+    """A command and an approximate start pose.
 
     Attributes:
         floor_plan: bundled name or path.
         command: what the robot is told.
-        pose: around which the robot starts, world frame.
+        pose: pose around which the robot starts, world frame.
         scatter: largest deviation of the start in x, y (metres) and heading (radians).
     """
 
@@ -28,7 +28,7 @@ class Trial:
 
     @property
     def group(self) -> str:
-        """Name under which it is counted: the plan and the command."""
+        """Name of its group in tables: the plan and the command."""
         return f"{self.floor_plan}: {self.command}"
 
 

@@ -42,22 +42,22 @@ def hearing_names() -> tuple[str, ...]:
 
 
 def hears(source: str | Path) -> bool:
-    """Whether that is the name or the folder of an agent that hears the command."""
+    """Whether a name or folder belongs to an agent that hears the command."""
     return network_kind(source) == NetworkShape.KIND
 
 
 class HearingAgent:
-    """Grounds the clause under way by a network, and lets another agent drive to its goal.
+    """Grounds the current clause with a network, and lets another agent drive to its goal.
 
-    It sees neither `goal` nor `clause`. Which clause is under way it keeps itself: it goes on when
-    the network says that the clause is done.
+    The agent sees neither `goal` nor `clause`. It keeps the index of the current clause itself, and
+    goes on to the next clause when the network says that the clause is done.
 
     Args:
-        network: the trained one.
+        network: the trained network.
         driver: an agent that is given goals; the scripted one, a planner, if None.
 
     Attributes:
-        decisions: what the network was asked in the last call of `act`.
+        decisions: inputs of the network in the last call of `act`.
     """
 
     observation = "command"
@@ -110,7 +110,7 @@ class HearingAgent:
         return compose(self._pose, self._goal.pose)
 
     def _decide(self, observation: Observation, state: ClauseState, pose: Pose) -> SeenGoal:
-        """Where to drive, robot frame; goes on to the clause that is under way by now."""
+        """The goal to drive to, robot frame; goes on to the clause that is current by now."""
         while not state.done:
             description = describe(observation, state, self._lidar, self._mount)
             self.decisions.append((copy(state), description))
@@ -127,7 +127,7 @@ class HearingAgent:
 
 
 def _goal_of(found: NetworkOutput, description: Description) -> SeenGoal:
-    """What the network said, in the robot frame."""
+    """The goal of a network output, robot frame."""
     kind, robot = GoalKind(int(np.argmax(found.kinds))), description.robot
     jambs = None
     if found.door is not None:
@@ -139,21 +139,21 @@ def _goal_of(found: NetworkOutput, description: Description) -> SeenGoal:
 
 
 def _rests_at(goal: SeenGoal, state: ClauseState) -> bool:
-    """Whether the robot stands where the clause leads to."""
+    """Whether the robot stands at the goal of the clause."""
     x, y, turned = goal.pose
     near = math.hypot(x, y) < REST_DISTANCE and abs(turned) < REST_ANGLE
     return goal.kind is GoalKind.REACH and near and state.still > REST_SECONDS
 
 
 def _next_begin(found: NetworkOutput, description: Description, state: ClauseState) -> Pose:
-    """Where the next clause begins, odometry frame; a condition leads nowhere."""
+    """The pose where the next clause begins, odometry frame; a condition does not change it."""
     if state.tokens[state.clause, 0] == TokenVerb.IF_THERE:
         return state.begin
     return compose(description.frame, compose(found.pose, (found.next_along, 0.0, 0.0)))
 
 
 def _seen_from(pose: Pose, then: Pose, goal: SeenGoal) -> SeenGoal:
-    """A goal that was seen from a pose, from where the robot is now."""
+    """A goal relative to an earlier pose, moved to the present robot frame."""
     moved = relative(pose, then)
     door = goal.door
     if door is not None:

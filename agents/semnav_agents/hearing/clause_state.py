@@ -1,4 +1,4 @@
-"""What an agent that hears the command remembers of the clause that it takes to be under way."""
+"""The memory of an agent that hears the command about its active clause."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from semnav_env.mind.grounding.ways import WAY_SPACING, Trail
 from semnav_features.frames import FloatArray, Point, Pose, to_local
 
 STANDSTILL_SPEED = 0.05
-"""Below it a robot counts as standing, m/s."""
+"""Speed below which a robot counts as standing, m/s."""
 
 
 class ClauseState:
-    """The agent's own pointer to the clause under way, and what happened since that began.
+    """The agent's own index of the active clause, and the events since that clause began.
 
-    All places are in the odometry frame. Nothing here comes from the environment's grounding.
+    All places are in the odom frame. Nothing here comes from the environment's grounding.
 
     Args:
         tokens: of the command, shape (8, 5).
@@ -25,10 +25,10 @@ class ClauseState:
 
     Attributes:
         tokens: of the command.
-        clause: index of the clause under way.
-        begin: where that clause began.
+        clause: index of the active clause.
+        begin: pose at which that clause began.
         farthest: the place at which the robot was farthest along the heading of `begin`.
-        still: for how long it has stood, seconds.
+        still: time for which the robot has stood, seconds.
         way_back: places to the start of the command, shape (n, 2), while the clause is to go back.
     """
 
@@ -44,9 +44,9 @@ class ClauseState:
 
     @property
     def step_when_done(self) -> int:
-        """By how many clauses to go on once the one under way is carried out.
+        """Number of clauses to advance when the active one is carried out.
 
-        A clause that was chosen by a condition is followed by what was to be done otherwise.
+        After a branch of a condition, the "otherwise" branch is skipped.
         """
         verb, case = self.tokens[self.clause - 1, :2] if self.clause else (TokenVerb.FOLLOW, 0)
         return 2 if verb == TokenVerb.IF_THERE and CONDITION_CASES[case][1] else 1
@@ -57,11 +57,11 @@ class ClauseState:
         return self._trail.back(self.pose).heading
 
     def start_clause(self, clause: int, begin: Pose, pose: Pose) -> None:
-        """Take a clause for the one under way.
+        """Make a clause the active one.
 
         Args:
             clause: its index.
-            begin: where it begins: where the one before led to.
+            begin: pose at which it begins: the goal of the clause before.
             pose: of the robot.
         """
         self.clause, self.begin, self.farthest, self.still = clause, begin, pose[:2], 0.0
@@ -72,7 +72,7 @@ class ClauseState:
         )
 
     def note(self, pose: Pose, speed: float, seconds: float) -> None:
-        """Note where the robot is now; to be called in every control period."""
+        """Note the robot's pose; call it in every control period."""
         self.pose = pose
         self.still = self.still + seconds if speed < STANDSTILL_SPEED else 0.0
         place: Point = pose[:2]

@@ -1,4 +1,4 @@
-"""Drives episodes and keeps what a learner of grounding learns from."""
+"""Drives episodes and collects samples for a learner of grounding."""
 
 from __future__ import annotations
 
@@ -33,18 +33,18 @@ from semnav_features.scene import Scene
 DECISION_STEPS = 3
 """Steps of the environment between decisions of an agent that hears."""
 
-KEPT_SHARE, KEPT_NEAR_SHARE, NEAR = 0.2, 0.5, 1.5
+KEPT_SHARE, KEPT_NEAR_SHARE, NEAR_GOAL_DISTANCE = 0.2, 0.5, 1.5
 """Shares of the decisions that are kept; and of those nearer to the goal than this, metres."""
 
-IMAGINED = 3
-"""Clauses that were not said, for each that is kept."""
+IMAGINED_CLAUSES = 3
+"""Number of imagined clauses, which were not said, for each kept sample."""
 
 LATE_STEPS = 2
-"""For so many decisions a clause that is over is shown as such."""
+"""Number of decisions for which a completed clause is shown as completed."""
 
 
 class GroundedGoal:
-    """The entry "goal" beside those of `observation="command"`, for who shows how to drive."""
+    """The entry "goal" beside those of `observation="command"`, for the agent that demonstrates."""
 
     name = "goal"
 
@@ -53,7 +53,7 @@ class GroundedGoal:
         return GOAL.space
 
     def observe(self, moment: Moment) -> NDArray[np.float32]:
-        """Where to drive now, robot frame."""
+        """The present target, robot frame."""
         belief = moment.belief
         goal, pose = belief.target, belief.pose
         door = door_of(goal)
@@ -69,7 +69,7 @@ class ShownAgent(ScriptedAgent):
 
 @dataclass
 class Samples:
-    """What was collected, one entry for each sample."""
+    """The collected samples."""
 
     descriptions: list[Description] = field(default_factory=list)
     labels: list[NDArray[np.void]] = field(default_factory=list)
@@ -94,11 +94,11 @@ class Samples:
 
 
 class Collector:
-    """Drives frozen episodes and labels what the driver comes to.
+    """Drives frozen episodes and labels the states of the driver.
 
     Args:
-        commands: to draw clauses from that were not said.
-        seed: of what is kept.
+        commands: commands from which imagined clauses are drawn.
+        seed: seed of the choice of samples.
         robot: name of the body.
         max_seconds: time limit of an episode.
     """
@@ -114,7 +114,7 @@ class Collector:
         self.env = SemNavEnv(robot, observation=ShownAgent.observation, max_seconds=max_seconds)
 
     def drive(self, episode: Episode, driver: Agent, samples: Samples) -> bool:
-        """Let a driver carry out an episode; returns whether it succeeds."""
+        """Let a driver drive an episode; returns whether it succeeds."""
         observation, info = self.env.reset(seed=episode.number, options={"episode": episode})
         driver.reset(info)
         self._lidar = LidarSpec(**info["lidar"])
@@ -152,17 +152,17 @@ class Collector:
     def _keep(
         self, observation: Observation, shown: ClauseState, follower: Follower, samples: Samples
     ) -> None:
-        """Keep a sample of the clause under way, and of some that were not said."""
+        """Keep a sample of the active clause, and of some imagined clauses."""
         pose = self.env.belief.pose
         label = real_label(follower, pose)
         if label is None or label.goal is None:
             return
-        near = float(np.hypot(*np.subtract(label.goal.pose[:2], pose[:2]))) < NEAR
+        near = float(np.hypot(*np.subtract(label.goal.pose[:2], pose[:2]))) < NEAR_GOAL_DISTANCE
         if self.rng.random() > (KEPT_NEAR_SHARE if near else KEPT_SHARE):
             return
         samples.add(self._described(observation, shown), label)
         scene = self.env.belief.scene
-        for _ in range(IMAGINED):
+        for _ in range(IMAGINED_CLAUSES):
             self._imagine(observation, shown, follower, scene, samples)
 
     def _keep_late(
@@ -186,7 +186,7 @@ class Collector:
         scene: Scene,
         samples: Samples,
     ) -> None:
-        """Keep a sample of a clause of another command, had it been said here."""
+        """Keep a sample of a clause of another command, as if it had been said here."""
         clauses = self.commands[int(self.rng.integers(len(self.commands)))]
         index = int(self.rng.integers(len(clauses)))
         label = imagined_label(clauses, index, follower, scene, self.env.belief.pose)
@@ -199,7 +199,7 @@ class Collector:
         samples.add(self._described(observation, state), label)
 
     def _keep_own(self, driver: Agent, follower: Follower, samples: Samples) -> None:
-        """Keep what a learner that drives has just decided on, in the state that it was in."""
+        """Keep a sample of the state in which a driving learner has just decided."""
         decisions = getattr(driver, "decisions", ())
         share = 1.0 if len(decisions) > 1 else KEPT_SHARE
         for state, description in decisions if not follower.done else ():

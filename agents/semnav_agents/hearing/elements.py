@@ -1,9 +1,9 @@
-"""What the network sees: a set of elements around the place where the clause began.
+"""The input of the network: a set of elements around the pose at which the clause began.
 
-Everything is in the frame of the corridor that the robot looked along when the clause began, as the
-walls tell that it remembers now: x runs along the corridor, y to its left. So "the second door on
-the right" is a matter of sorting, wherever the robot is by now. Each element has a base pose, from
-which the network says where the goal lies.
+All elements are in the frame of the corridor that the robot faced when the clause began, found on
+the walls that are remembered now: x runs along the corridor, y to its left. In this frame "the
+second door on the right" only requires sorting, wherever the robot is. Each element has a base
+pose, relative to which the network gives the goal.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Array = NDArray[np.float32]
 
 
 class ElementKind(IntEnum):
-    """What an element of the set stands for."""
+    """The kind of an element of the set."""
 
     ROBOT = 0
     AXIS = 1
@@ -48,18 +48,18 @@ ELEMENT_SIZE = len(ElementKind) + 2 * 4 + 6 + EXTRAS
 """Numbers that describe an element."""
 
 MOST_ELEMENTS = 40
-"""Elements of a set; more are left out, the last first."""
+"""Largest number of elements of a set; of more elements the last ones are left out."""
 
 FAR = 30.0
-"""Stands for a distance that is not known, metres."""
+"""Value of an unknown distance, metres."""
 
 LEAST_GAP = 0.6
-"""A stretch of a side that is longer and unseen may hide a door, metres."""
+"""Length of an unseen part of a side from which on it may hide a door, metres."""
 
 
 @dataclass(frozen=True, eq=False)
 class Description:
-    """What the network takes.
+    """The input of the network.
 
     Attributes:
         elements: shape (MOST_ELEMENTS, ELEMENT_SIZE); unused rows are zero.
@@ -93,7 +93,7 @@ class Rows:
 def describe(
     observation: Observation, state: ClauseState, lidar: LidarSpec, mount: Pose
 ) -> Description:
-    """The set of elements for the clause that the agent takes to be under way.
+    """Make the set of elements for the agent's active clause.
 
     Args:
         observation: of an environment with `observation="command"`.
@@ -174,7 +174,7 @@ def _single_rows(
 def _depths(
     scan: Array, doors: NDArray[np.float64], lidar: LidarSpec, mount: Pose
 ) -> NDArray[np.float64]:
-    """How far behind a door a beam through its middle goes, metres; NaN out of view.
+    """Depth behind each door that a beam through its middle reaches, metres; NaN out of view.
 
     Args:
         scan: ranges, metres.
@@ -212,7 +212,7 @@ def _joined(parts: tuple[Rows, ...], command: Array, frame: Pose, robot: Pose) -
 
 
 def _scaled(ends: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Both ends twice: as they are, and with what is near told apart more finely."""
+    """Both ends twice: unchanged, and scaled so that near things are resolved more finely."""
     near = ends / (1.0 + np.abs(ends))
     return np.concatenate((ends / 10.0, near), axis=1)
 

@@ -1,8 +1,8 @@
-"""What the environment's grounding says of a moment: what a learner of grounding learns from.
+"""Labels for a learner of grounding, from the environment's grounding at one moment.
 
-The label of a clause is its goal on what the robot remembers, as `Belief.target` would be, and
-whether the clause is done. Clauses that were not said can be labelled as well, from the same place:
-what the goal would be had another clause been said there. That costs no driving.
+The label of a clause is its goal on the robot's memory, as `Belief.target` would be, and whether
+the clause is done. Imagined clauses can be labelled at the same place, as if they had been said
+there; this costs no driving.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ NEVER_REACHED = 0.0
 
 @dataclass(frozen=True)
 class Label:
-    """What is right at a moment; poses in the odometry frame.
+    """The label at a moment; poses in the odom frame.
 
     Attributes:
-        goal: where to drive; None where the clause is over and nothing is known of it.
-        advance: by how many clauses to go on; -1 where that is not known.
+        goal: the target; None if the clause is over and its goal is not known.
+        advance: number of clauses to advance; -1 if this is not known.
     """
 
     goal: Goal | None
@@ -74,7 +74,7 @@ def as_record(label: Label, frame: Pose) -> NDArray[np.void]:
 
 
 def real_label(follower: Follower, pose: Pose) -> Label | None:
-    """The label of the clause that the environment takes to be under way; None if impossible."""
+    """The label of the environment's active clause; None if it is impossible."""
     if follower.done or follower.impossible is not None:
         return None
     return Label(follower.target(pose), 0)
@@ -83,7 +83,7 @@ def real_label(follower: Follower, pose: Pose) -> Label | None:
 def imagined_label(
     clauses: Sequence[Clause], index: int, follower: Follower, scene: Scene, pose: Pose
 ) -> Label | None:
-    """The label of another clause, had it been said where the one under way began.
+    """The label of another clause, as if it had been said where the active clause began.
 
     Args:
         clauses: of another command.
@@ -120,16 +120,16 @@ def imagined_label(
 
 
 def _imagined_advance(goal: Goal, pose: Pose, care: float) -> int:
-    """0 where a goal is clearly not reached; -1 where that hangs on how the robot came here."""
+    """0 if a goal is clearly not reached; -1 if this depends on how the robot came here."""
     if isinstance(goal, ReachGoal) and goal.distance_tolerance > NEVER_REACHED:
         return -1 if goal.reached_by(pose, care) else 0
     return 0 if goal.kind is GoalKind.SEEK or isinstance(goal, ReachGoal) else -1
 
 
 def steps_on(clauses: Sequence[Clause], before: int, after: int) -> int:
-    """By how many clauses a pointer at `before` is to go on where that at `after` is right.
+    """Number of clauses that an index `before` must advance if the index `after` is right.
 
-    Several clauses may be over at once; then each asks for its own step.
+    Several clauses may be over at once; then each needs its own step.
     """
     condition = clauses[before - 1] if before else None
     if isinstance(clauses[before], IfThere):

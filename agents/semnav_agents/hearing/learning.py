@@ -49,7 +49,7 @@ _LABEL_TYPES: dict[str, Any] = {
 
 
 def _door_element(jambs: NDArray[Any], labels: NDArray[Any]) -> NDArray[np.int64]:
-    """Which element is the door of the goal; -1 where there is none."""
+    """Index of the element that is the door of the goal; -1 without a door."""
     doors = jambs.any(axis=2)
     middles, wanted = (jambs[..., :2] + jambs[..., 2:]) / 2, labels["door"]
     apart = np.hypot(*np.moveaxis(middles - ((wanted[:, :2] + wanted[:, 2:]) / 2)[:, None], 2, 0))
@@ -61,7 +61,7 @@ def _door_element(jambs: NDArray[Any], labels: NDArray[Any]) -> NDArray[np.int64
 
 
 def loss_of(said: Grounded, batch: dict[str, Tensor]) -> Tensor:
-    """The loss of a batch: of the proposals, the kind, the door, the next begin, the going on."""
+    """The loss of a batch: of proposals, kind, door, begin of the next clause, and advance."""
     goal = batch["label_has_goal"]
     apart = torch.linalg.vector_norm(said.places - batch["label_pose"][:, None, :2], dim=2)
     heading = batch["label_pose"][:, 2]
@@ -147,7 +147,7 @@ class Learner:
         )
 
     def load(self, tensors: Arrays) -> None:
-        """Go on from what `state` gave.
+        """Continue from a result of `state`.
 
         Raises:
             ValueError: a tensor is missing, too many, of another shape or type, or not finite.
@@ -167,9 +167,9 @@ class Learner:
 def batches(
     counts: NDArray[np.int8], size: int, rng: np.random.Generator
 ) -> list[NDArray[np.int64]]:
-    """The numbers of the samples, in batches of random samples with about as many elements.
+    """Random batches of sample indices; samples of a batch have similar numbers of elements.
 
-    So little is computed for rows that are unused.
+    Batches of samples of similar size waste little computation on unused rows.
     """
     order = rng.permutation(len(counts))
     pools = np.array_split(order, max(1, len(order) // (POOLED * size)))
@@ -184,7 +184,7 @@ def batches(
 
 
 def ask(network: TorchGrounding, batch: dict[str, Tensor]) -> Grounded:
-    """What the network says of a batch."""
+    """The output of the network for a batch."""
     names = ("elements", "mask", "command", "bases", "robot")
     said: Grounded = network(*(batch[name] for name in names))
     return said
@@ -192,7 +192,7 @@ def ask(network: TorchGrounding, batch: dict[str, Tensor]) -> Grounded:
 
 @torch.no_grad()
 def measured(network: TorchGrounding, samples: Arrays) -> dict[str, float]:
-    """How right the network is on samples: shares, and the median error of places in metres."""
+    """Accuracy of the network on samples: shares, and the median error of places in metres."""
     batch = to_tensors(samples)
     said = ask(network, batch)
     goal, rows = batch["label_has_goal"], torch.arange(len(batch["robot"]))

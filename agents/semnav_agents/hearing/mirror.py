@@ -1,4 +1,4 @@
-"""Samples seen in a mirror: left becomes right, and every label stays right."""
+"""Mirrors samples: exchanges left and right in inputs and labels."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ Arrays = dict[str, NDArray[Any]]
 
 _KINDS = len(ElementKind)
 _SIDEWAYS = _KINDS + np.array((1, 3, 5, 7, 9, 11, 13))
-"""Where an element has a left: both ends and the base, each twice, and the base's sine."""
+"""Columns of an element that change their sign: y of both ends and the base, each twice, and a
+sine."""
 
 _EXTRAS = _KINDS + 14
 _FLIPPED_EXTRAS = {ElementKind.OPENING: (0,), ElementKind.DOOR: (6,), ElementKind.PLACE: (3, 6)}
@@ -61,7 +62,7 @@ def _mirrored_elements(elements: NDArray[Any]) -> NDArray[Any]:
 
 
 def _mirrored_doors(jambs: NDArray[Any]) -> NDArray[Any]:
-    """Jambs with their order kept: who stands before a door has its start on the same hand."""
+    """Mirror jambs and keep their order: a robot before a door has its start on the same side."""
     other: NDArray[Any] = jambs[..., [2, 3, 0, 1]] * np.array((1, -1, 1, -1), jambs.dtype)
     return other
 

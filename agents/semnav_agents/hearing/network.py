@@ -48,7 +48,7 @@ MASKED = -1e9
 
 @dataclass(frozen=True)
 class NetworkShape(TransformerSettings):
-    """Sizes of the network, whose width is that of an element inside."""
+    """Sizes of the network; the width is that of the encoding of an element."""
 
     KIND = "grounding"
 
@@ -73,13 +73,13 @@ class NetworkShape(TransformerSettings):
 
 @dataclass(frozen=True)
 class NetworkOutput:
-    """What the network says.
+    """The output of the network for a clause and a set of elements.
 
     Attributes:
         kinds: probability of each kind of goal.
         pose: of the goal, in the frame of the description.
-        element: the one that the clause is about.
-        door: the element that is its door; None without one.
+        element: index of the element that the clause is about.
+        door: index of the element that is the door of the goal; None without a door.
         next_along: how far from the goal along its heading the next clause begins, metres.
         advances: probability of going on by 0, 1 or 2 clauses.
     """
@@ -119,7 +119,7 @@ class GroundingNetwork:
         return cls(shape, load_weights(folder, shape.tensors()))
 
     def ground(self, description: Description) -> NetworkOutput:
-        """The goal of the clause under way, and whether that is done."""
+        """Ground the current clause: its goal, and whether the clause is done."""
         count = int(description.mask.sum())
         scores, offsets, outputs, query = self.encode(
             description.elements[:count], description.command
@@ -164,7 +164,7 @@ class GroundingNetwork:
 
 
 def fit_of(robot: Pose, kinds: Array, own: Array) -> Array:
-    """How the robot stands to the proposed goal, shape (FIT_SIZE,).
+    """Features of the robot's pose relative to the proposed goal, shape (FIT_SIZE,).
 
     Args:
         robot: its pose in the goal's frame.

@@ -14,10 +14,10 @@ RowArrays: TypeAlias = tuple[FloatArray, FloatArray, FloatArray]
 """Two ends, shape (n, 4); base poses, shape (n, 3); seven extras, shape (n, 7)."""
 
 REACHED_SHARE = 0.95
-"""Share of the way to a door's middle that must be free of walls for it to be in view."""
+"""Share of the distance to a door's middle that must be free of walls for it to be in view."""
 
 MOST_DEPTH = 5.0
-"""Depths behind doors are cut to this, metres."""
+"""Largest depth behind a door, metres; larger depths are clipped."""
 
 
 def describe_doors(
@@ -29,7 +29,7 @@ def describe_doors(
     told: FloatArray,
     outward: FloatArray,
 ) -> RowArrays:
-    """The remembered doors.
+    """Make elements of the remembered doors.
 
     Args:
         doors: jambs, shape (n, 4).
@@ -60,7 +60,7 @@ def describe_doors(
 
 
 def _through(doors: FloatArray, towards: FloatArray) -> FloatArray:
-    """The pose in the middle of each door that heads through it, away from where one comes from."""
+    """The pose in the middle of each door, facing through it, away from the side of approach."""
     middles, along = (doors[:, :2] + doors[:, 2:]) / 2, doors[:, 2:] - doors[:, :2]
     normals = np.column_stack((-along[:, 1], along[:, 0]))
     normals *= np.where((normals * towards).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
@@ -73,7 +73,7 @@ def through_one(door: FloatArray, towards: FloatArray) -> FloatArray:
 
 
 def _side_gap(corridor: Corridor, along: float, offset: float) -> float:
-    """How far behind the side of the corridor a place lies, metres; 2 where no side is known."""
+    """Distance of a place behind the side of the corridor, metres; 2 where no side is known."""
     side = corridor.side_at(offset > 0.0, along)
     return abs(offset) - side if math.isfinite(side) else 2.0
 

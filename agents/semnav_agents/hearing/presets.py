@@ -1,4 +1,4 @@
-"""Presets of agents that hear the command: how much to collect, and how long to learn from it."""
+"""Presets of agents that hear the command: amount of data, and length of the training."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from semnav_features.checked_fields import Bounds, Count, Share, check_fields
 
 @dataclass(frozen=True)
 class HearingRound:
-    """A round: episodes are driven, and the network learns from all samples so far.
+    """A round of training: episodes are driven, and the network learns from all samples so far.
 
     In the first round the scripted agent drives, as the environment grounds the command; then the
     learner drives, and the environment says what would have been right (DAgger, Ross, Gordon and
@@ -33,7 +33,7 @@ class HearingRound:
 
 @dataclass(frozen=True)
 class HearingPreset:
-    """What to learn, from what and for how long.
+    """Settings of a training: network, data and duration.
 
     Attributes:
         name: as in `semnav train NAME`.

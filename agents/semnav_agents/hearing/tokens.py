@@ -1,4 +1,4 @@
-"""The numbers in which a clause and the one before it enter the network."""
+"""The input features of the network for a clause and the clause before it."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from semnav_env.language.references import AMOUNT_STEP, STEP_LENGTH, Unit
 from semnav_env.language.tokens import COLUMN_SIZES, LAST_TOKEN, TOKEN_REFERENTS
 
 MOST_COUNTED = 12
-"""Ordinals up to this have a number of their own in the description."""
+"""Largest ordinal with a number of its own in the description."""
 
 MOST_FROM_END = 4
-"""As many ordinals from the end have one."""
+"""Number of ordinals from the end that have a number of their own."""
 
 _METRES = {
     TOKEN_REFERENTS.index(Unit.METRES): AMOUNT_STEP[Unit.METRES],
@@ -30,22 +30,22 @@ CLAUSE_SIZE = sum(_ONE_HOT) + MOST_COUNTED + MOST_FROM_END + _AMOUNTS
 """Numbers that describe one clause."""
 
 COMMAND_SIZE = 2 * CLAUSE_SIZE
-"""Numbers that describe the clause under way and the one before it."""
+"""Number of values that describe the active clause and the one before it."""
 
 
 def describe_clauses(tokens: NDArray[np.int64], clause: int) -> NDArray[np.float32]:
-    """The clause under way and the one before it, shape (COMMAND_SIZE,).
+    """Describe the active clause and the one before it, shape (COMMAND_SIZE,).
 
     Args:
         tokens: of the command, shape (8, 5).
-        clause: index of the clause under way, one of the command's.
+        clause: index of the current clause of the command.
     """
     before = np.zeros_like(tokens[0]) if clause == 0 else tokens[clause - 1]
     return np.concatenate((_describe(tokens[clause]), _describe(before)))
 
 
 def _describe(row: NDArray[np.int64]) -> NDArray[np.float32]:
-    """One clause; all zeros for none."""
+    """The features of one clause; zeros if there is no clause."""
     if not row.any():
         return np.zeros(CLAUSE_SIZE, np.float32)
     verb, turning, referent, number, side = (int(value) for value in row)

@@ -35,7 +35,7 @@ class ToldRows:
 def told_place_rows(
     observation: Observation, state: ClauseState, axis: Pose, pose: Pose
 ) -> ToldRows:
-    """The way of the clause under way: the one that was told, or the one that was driven.
+    """The way of the active clause: the told way, or the driven way.
 
     Args:
         observation: of the robot.

@@ -1,4 +1,4 @@
-"""The grounding network as it is trained; the same as `network.GroundingNetwork`, in torch."""
+"""The grounding network for training: `network.GroundingNetwork` in torch."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from semnav_agents.networks.torch_network import TorchNetwork
 
 
 class Grounded(NamedTuple):
-    """What the network says of a batch of b samples with n elements.
+    """The output of the network for a batch of b samples with n elements.
 
     Attributes:
         log_shares: of the elements in the mixture, shape (b, n).
@@ -49,7 +49,7 @@ class TorchGrounding(TorchNetwork):
 
         Args:
             elements: shape (b, n, ELEMENT_SIZE).
-            mask: which count, shape (b, n).
+            mask: whether a row holds an element, shape (b, n).
             command: shape (b, COMMAND_SIZE).
             bases: shape (b, n, 3).
             robot: its pose, shape (b, 3).

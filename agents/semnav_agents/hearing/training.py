@@ -1,7 +1,7 @@
 """Training of an agent that hears: rounds of driving and learning, kept in one folder.
 
-Everything that is drawn by chance is drawn from the seed and the number of the round, the chunk or
-the epoch. What was begun is begun again after an interruption, and ends as if there had been none.
+Every random draw follows from the seed and the number of the round, the chunk or the epoch. After
+an interruption an unfinished chunk or epoch is repeated, and gives the same result.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ class HearingTrainer:
     """One training, kept in one folder.
 
     Args:
-        preset: what to learn.
+        preset: the settings of the training.
         folder: for the agent, its samples and its state; made if it does not exist.
         seed: of weights, episodes, samples and their order.
 
@@ -66,7 +66,7 @@ class HearingTrainer:
             self._resume()
 
     def advance(self) -> Iterator[dict[str, Any]]:
-        """Drive and learn what is left; yields a row of the curve after each chunk and epoch."""
+        """Run the chunks and epochs that are left; yields a row of the curve after each."""
         for number, each in enumerate(self.preset.rounds):
             for chunk in range(self._chunks(each)):
                 if not self._has(number, chunk=chunk):
@@ -89,7 +89,7 @@ class HearingTrainer:
         return any(wanted.items() <= row.items() for row in self.card.curve)
 
     def _note(self, row: dict[str, Any]) -> dict[str, Any]:
-        """Keep a row of the curve; the card is written last, so it tells of nothing unsaved."""
+        """Keep a row of the curve. The card is written last, so it describes saved files only."""
         self.card.curve.append(row)
         self.card.write(self.folder)
         return row
@@ -129,7 +129,7 @@ class HearingTrainer:
         return GroundingNetwork(self.preset.shape, self.network.arrays())
 
     def _samples(self, number: int) -> Arrays:
-        """All samples so far, but for the chunk that is held out."""
+        """All samples so far, except those of the chunk that is held out."""
         files = [
             self._file(k, chunk)
             for k, each in enumerate(self.preset.rounds[: number + 1])
@@ -159,7 +159,7 @@ class HearingTrainer:
         return [episode.meanings()[0].clauses for episode in self._split]
 
     def _episodes(self, number: int, chunk: int) -> list[Episode]:
-        """The episodes of a chunk; no round repeats those of another while there are others."""
+        """The episodes of a chunk; a round repeats episodes of another only when none are left."""
         order = np.random.default_rng(self.seed).permutation(len(self._split))
         first = sum(each.episodes for each in self.preset.rounds[:number])
         begin = chunk * self.preset.chunk
@@ -193,7 +193,7 @@ class HearingTrainer:
 
 
 def plain_preset(preset: HearingPreset) -> dict[str, Any]:
-    """The preset as the plain data of a JSON file."""
+    """A preset as plain data for a JSON file."""
     return dict(json.loads(json.dumps(asdict(preset))))
 
 

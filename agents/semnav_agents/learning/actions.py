@@ -1,4 +1,4 @@
-"""Actions of a policy that drives several bodies: those of the one that can do most."""
+"""Actions of a policy for several bodies: those of the body with the most degrees of freedom."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Array = NDArray[Any]
 
 
 def for_body(actions: Array, size: int) -> Array:
-    """Actions as a body takes them; one that cannot move sideways leaves that part out.
+    """Convert actions of a policy for a body; one that cannot move sideways ignores that part.
 
     Args:
         actions: of the policy, shape (..., 2 or 3).
@@ -21,7 +21,7 @@ def for_body(actions: Array, size: int) -> Array:
 
 
 def from_body(action: Array, size: int) -> Array:
-    """An action of a body as a policy gives it; the opposite of `for_body`.
+    """Convert an action of a body to an action of a policy; the inverse of `for_body`.
 
     Args:
         action: of the body, shape (2,) or (3,).

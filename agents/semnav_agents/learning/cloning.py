@@ -27,15 +27,15 @@ VALUE_WEIGHT = 0.01
 def clone(model: PPO, demonstrations: Tensors, seed: int) -> Iterator[float]:
     """Teach the mean of the policy the actions, and the value function the returns.
 
-    Every other batch, by chance, is mirrored: left and right are exchanged.
+    Half of the batches, chosen at random, are mirrored: left and right are exchanged.
 
     Args:
-        model: whose weights are changed.
+        model: the model whose weights are changed.
         demonstrations: "observations", "actions" and "returns", a row for each decision.
         seed: of the order of the decisions.
 
     Yields:
-        The mean loss of each of `EPOCHS` passes, on what was learned from.
+        The mean loss of each of `EPOCHS` passes, on the training data.
     """
     kept = ~pauses(demonstrations)
     parts = [demonstrations[name][kept] for name in ("observations", "actions", "returns")]
@@ -62,7 +62,7 @@ def clone(model: PPO, demonstrations: Tensors, seed: int) -> Iterator[float]:
 
 
 def _loss(model: PPO, observations: Tensor, actions: Tensor, returns: Tensor) -> Tensor:
-    """The error of a batch; a body that cannot move sideways may say anything of that."""
+    """The error of a batch; for a body that cannot move sideways, that part does not count."""
     policy = model.policy
     hidden, hidden_value = policy.mlp_extractor(observations)
     wanted, values = policy.action_net(hidden), policy.value_net(hidden_value).flatten()

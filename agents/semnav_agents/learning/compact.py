@@ -18,26 +18,27 @@ from semnav_features.lidar_spec import LidarSpec
 Array = NDArray[np.float32]
 
 _GOAL_PARTS = [GOAL.columns.index(name) for name in ("x", "cosine", "door_start_x", "has_door")]
-"""Where in the goal its place, its heading, its door and the flag of the door begin."""
+"""Indices in the goal at which its position, its heading, its door and the flag of the door
+begin."""
 
 _VELOCITY = ODOMETRY.columns.index("forward")
-"""Where in the odometry the velocity begins."""
+"""Index in the odometry at which the velocity begins."""
 
 COMPACT_SIZE = 1 + GOAL.size + ODOMETRY.size - _VELOCITY + SECTORS + len(PROBED_MOVES)
-"""Length of a compact observation: the body, the goal, the velocity, the room around."""
+"""Length of a compact observation: the body, the goal, the velocity, the surroundings."""
 
 VELOCITY = slice(1 + GOAL.size, 1 + GOAL.size + ODOMETRY.size - _VELOCITY)
-"""Where a compact observation has the velocity."""
+"""Slice of the velocity in a compact observation."""
 
 COMPACT_ENTRIES = ("goal", "odometry", "scan", "bumps", "bumps_mask")
-"""Entries of the observation that it is made of."""
+"""Entries of the observation from which a compact observation is made."""
 
 PLACE_SCALE, CLEARANCE_SCALE = 1.0, 0.3
-"""Lengths that are squashed to a half, metres: contact is decided by few centimetres."""
+"""Lengths that are squashed to one half, metres; few centimetres of clearance decide on contact."""
 
 
 class CompactObserver:
-    """Makes the observations of some robots compact; remembers what is around each.
+    """Makes the observations of some robots compact, and remembers the obstacles around each.
 
     Args:
         robots: the body of each.
@@ -61,11 +62,11 @@ class CompactObserver:
             self.memories[k].forget()
 
     def observe(self, observation: Observation, robots: Sequence[int] | None = None) -> Array:
-        """The body, the goal, the velocity and the room around, each value in [-1, 1].
+        """Make vectors of the body, the goal, the velocity and the surroundings, values in [-1, 1].
 
-        Places and speeds p enter as p / (1 + |p|). This keeps the direction, tells near places
-        apart more finely than far ones, and is bounded. Clearances c enter as c / (0.3 + c). The
-        text of the command is left out: the goal says already what it refers to.
+        Positions and speeds p enter as p / (1 + |p|). This keeps the direction, resolves near
+        places more finely than far ones, and is bounded. Clearances c enter as c / (0.3 + c). The
+        text of the command is left out, because the goal is already its referent.
 
         Args:
             observation: of an environment with `observation="all"`, a row for each robot.
@@ -108,7 +109,7 @@ class CompactObserver:
 
 
 def unseen(observation: Observation, row: int) -> FloatArray:
-    """Obstacles that are no hits: what was bumped into, and the jambs of the goal's door.
+    """Obstacles without lidar hits: the bumps, and the jambs of the goal's door.
 
     Args:
         observation: a row for each robot.
@@ -133,5 +134,5 @@ def _squash_place(place: Array) -> Array:
 
 
 def squashed(values: Array) -> Array:
-    """Each value on its own."""
+    """Squash each value on its own."""
     return np.asarray(values / (1.0 + np.abs(values)), np.float32)

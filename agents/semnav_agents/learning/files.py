@@ -66,11 +66,11 @@ def save_checkpoint(folder: Path, tensors: Mapping[str, NDArray[Any]]) -> None:
 
 
 def load_checkpoint(folder: Path) -> Tensors:
-    """The newest state that can be read.
+    """Read the newest state that is complete.
 
     Raises:
-        ValueError: neither can.
-        OSError: the newest one cannot be read.
+        ValueError: neither state is complete.
+        OSError: the newest state cannot be read.
     """
     try:
         return load_tensors(folder / TRAINING_FILE)

@@ -1,4 +1,4 @@
-"""What a policy imitates before it learns by reinforcement: drives of the scripted agent."""
+"""Demonstrations of the scripted agent, imitated by a policy before reinforcement learning."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def demonstrations(preset: Preset, seed: int, folder: Path) -> Iterator[int]:
     """Drive the demonstrations of a preset that are not in a folder yet.
 
     Yields:
-        How many have been driven, after each.
+        The number of demonstrations so far, after each.
     """
     demonstrator = Demonstrator(preset, seed)
     for first in range(0, preset.demonstrations, SHARD_SIZE):
@@ -54,10 +54,10 @@ def load_demonstrations(folder: Path) -> Tensors:
 
 
 def pauses(demonstrations: Tensors) -> NDArray[np.bool_]:
-    """In which decisions the scripted agent stands and waits, shape (n,).
+    """Whether the scripted agent stands and waits in each decision, shape (n,).
 
-    It does so before it plans anew, which a policy cannot know: one that imitates it stands still
-    for ever.
+    The scripted agent waits before it plans again. A policy cannot observe the reason, so a policy
+    that imitates the pauses stands still for ever.
     """
     velocity, actions = demonstrations["observations"][:, VELOCITY], demonstrations["actions"]
     largest = np.maximum(np.abs(velocity).max(axis=1), np.abs(actions).max(axis=1))
@@ -66,16 +66,16 @@ def pauses(demonstrations: Tensors) -> NDArray[np.bool_]:
 
 
 def joined(parts: list[Tensors]) -> Tensors:
-    """Tensors of the same names, put together along their first dimension."""
+    """Concatenate tensors of the same names along their first dimension."""
     return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
 class Demonstrator:
-    """Lets the scripted agent drive, and records what a policy would have observed.
+    """Lets the scripted agent drive, and records the observations of a policy.
 
-    In some episodes its actions are perturbed now and then, so that the record also shows how to
-    get back from where a learner errs: DART (Laskey et al. 2017). What is recorded is what the
-    agent wanted.
+    In some episodes noise is added to the actions now and then, so that the record also shows how
+    to recover from errors of a learner: DART (Laskey et al. 2017). The recorded action is the one
+    without noise.
 
     Args:
         preset: whose robots, episodes and rewards.
@@ -135,7 +135,7 @@ class Demonstrator:
 
 
 class Perturbation:
-    """What is added to the actions of one demonstration.
+    """The noise that is added to the actions of one demonstration.
 
     Args:
         size: of an action.
@@ -148,7 +148,7 @@ class Perturbation:
         self._left, self._value = 0, np.zeros(size)
 
     def draw(self) -> NDArray[np.float64]:
-        """That of the next decision."""
+        """The noise of the next decision."""
         if self._left:
             self._left -= 1
         elif self._perturbed and self._rng.random() < PERTURBATION_RATE:

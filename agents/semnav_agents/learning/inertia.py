@@ -1,9 +1,9 @@
-"""Gets a robot going that stands though its policy wants to be elsewhere.
+"""Starts a robot that stands still because of the inertia of its imitating policy.
 
-Where an expert may go either of two ways, a policy that imitates it learns the mean of both, and to
-keep on moving as it moves; a robot that has come to rest there rests for ever. That is the inertia
-problem of imitation (Codevilla et al. 2019). So a robot that stands asks its policy what it would
-do if it were moving already, one way or another, and begins to do what fits best.
+Where an expert may take either of two actions, a policy that imitates it learns the mean of both,
+and learns to continue its present motion; a robot that has come to rest there stays at rest. This
+is the inertia problem of imitation (Codevilla et al. 2019). Therefore the policy of a resting robot
+is evaluated as if the robot were already moving, for several motions, and the best fit is driven.
 """
 
 from __future__ import annotations
@@ -21,19 +21,20 @@ from semnav_features.frames import FloatArray, Pose, wrap_angle
 Array = NDArray[np.float32]
 
 REST_DISTANCE, REST_ANGLE = 0.1, 0.35
-"""A robot that has not come farther than this rests, metres and radians."""
+"""Motion below which a robot counts as resting, metres and radians."""
 
 REST_DECISIONS, PUSH_DECISIONS = 8, 4
-"""Decisions of rest after which a robot is got going, and decisions for which it is pushed."""
+"""Decisions of rest after which a robot is pushed, and decisions for which it is pushed."""
 
 IMAGINED_VELOCITIES: FloatArray = np.array(
     [(v, 0.0, w) for v in (0.3, 0.0, -0.25) for w in (0.0, 0.4, -0.4) if v or w]
 )
-"""Velocities of the axle that a policy is asked about: forward, left and turn, m/s and rad/s."""
+"""Velocities of the axle for which a policy is evaluated: forward, left, yaw rate, m/s and
+rad/s."""
 
 
 class Inertia:
-    """Remembers how long a robot has rested, and pushes it.
+    """Measures how long a robot has rested, and pushes it.
 
     Args:
         robot: the body.
@@ -50,10 +51,10 @@ class Inertia:
         self._velocities = squashed(imagined.astype(np.float32))
 
     def act(self, policy: Policy, values: Array, pose: Pose) -> Array:
-        """The action of a policy, or that to which a robot at rest is pushed.
+        """The action of a policy, or the push of a robot at rest.
 
         Args:
-            policy: of a learned agent.
+            policy: the policy of a learned agent.
             values: the compact observation.
             pose: of the robot, odometry frame.
         """
@@ -75,7 +76,7 @@ class Inertia:
         return away > REST_DISTANCE or abs(wrap_angle(pose[2] - self._place[2])) > REST_ANGLE
 
     def _pushed(self, policy: Policy, values: Array) -> Array:
-        """What the policy would do if it moved as it is most content to; then the next best."""
+        """The action of the policy for the best fitting motion; later for the next best."""
         rows = np.repeat(values[None], len(self._velocities), axis=0)
         rows[:, VELOCITY] = self._velocities
         actions = np.array([policy.act(row) for row in rows])

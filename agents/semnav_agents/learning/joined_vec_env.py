@@ -22,8 +22,8 @@ class JoinedVecEnv(VecEnv):
     """The robots of several vector environments, one after the other.
 
     Args:
-        parts: with the same observation space. Their bodies may differ; actions are those of the
-            one that can do most.
+        parts: vector environments with the same observation space. Their bodies may differ; actions
+            are those of the body with the most degrees of freedom.
     """
 
     def __init__(self, parts: Sequence[VecEnv]) -> None:
@@ -35,7 +35,7 @@ class JoinedVecEnv(VecEnv):
         super().__init__(ends[-1], parts[0].observation_space, space)
 
     def seed(self, seed: int | None = None) -> list[int | None]:
-        """Set the seeds of the next reset; they count on from the first robot's."""
+        """Set the seeds of the next reset; they count up from the seed of the first robot."""
         seeds: list[int | None] = []
         for part in self._parts:
             seeds += part.seed(None if seed is None else seed + len(seeds))
@@ -48,7 +48,7 @@ class JoinedVecEnv(VecEnv):
         return observations
 
     def step_async(self, actions: Array) -> None:
-        """Take in the actions."""
+        """Store the actions for `step_wait`."""
         for part, rows, size in zip(self._parts, self._slices, self._sizes, strict=True):
             part.step_async(for_body(actions[rows], size))
 
@@ -78,7 +78,7 @@ class JoinedVecEnv(VecEnv):
     def env_method(
         self, method_name: str, *arguments: Any, indices: VecEnvIndices = None, **options: Any
     ) -> list[Any]:
-        """What a method of single environments returns, part by part."""
+        """Call a method of the single environments; returns a result for each part."""
         return [
             result
             for part, rows in self._chosen(indices)

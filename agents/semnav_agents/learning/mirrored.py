@@ -1,4 +1,4 @@
-"""Left and right exchanged: every decision that is imitated teaches two."""
+"""Mirrors decisions: exchanges left and right, which doubles the demonstrations."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Array = NDArray[Any]
 
 
 def _order() -> tuple[NDArray[np.intp], NDArray[np.float32]]:
-    """Where each value of a mirrored compact observation comes from, and its sign."""
+    """Index and sign of the value from which each mirrored value is made."""
     # body, kind (4), place (2), heading (2), start and end of the door (4), has door, velocity (3)
     first = [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 9, 10, 13, 14, 15, 16]
     negated = [6, 8, 10, 12, 15, 16]

@@ -21,7 +21,7 @@ Counted = Annotated[int, Bounds(0, 10**15)]
 
 @dataclass(frozen=True)
 class PolicySettings(NetworkSettings):
-    """What an agent needs to run a policy, and how far its training is.
+    """Settings to run a policy, and the progress of its training.
 
     Attributes:
         robots: names of the bodies that were driven.
@@ -48,7 +48,7 @@ class PolicySettings(NetworkSettings):
 
     @property
     def is_untrained(self) -> bool:
-        """Whether nothing was learned: the weights are those that were drawn by chance."""
+        """Whether the weights are still the random initial ones."""
         return not self.steps and not self.imitated
 
     def tensors(self) -> Shapes:
@@ -71,7 +71,7 @@ class Policy:
 
     @classmethod
     def of_layers(cls, layers: Sequence[tuple[Array, Array]]) -> Policy:
-        """The policy of some layers, each a weight, shape (outputs, inputs), and a bias."""
+        """A policy from layers, each a weight, shape (outputs, inputs), and a bias."""
         tensors: dict[str, Array] = {}
         for k, (weight, bias) in enumerate(layers):
             tensors |= {f"{k}.weight": weight, f"{k}.bias": bias}

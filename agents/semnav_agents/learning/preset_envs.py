@@ -31,8 +31,8 @@ class TrialTask:
     """Draws one of several trials, and a start pose around its own.
 
     Attributes:
-        trials: to draw from.
-        robot: whose body must be free there.
+        trials: trials to draw from.
+        robot: the body that must be free at the start.
     """
 
     trials: tuple[Trial, ...]
@@ -76,8 +76,8 @@ def preset_envs(preset: Preset, **options: Any) -> VecEnv:
     """The environments of a preset: compact observations, repeated actions, its episodes.
 
     Args:
-        preset: what to learn.
-        options: more of `as_sb3_vec_env`.
+        preset: the preset of the training.
+        options: further options of `as_sb3_vec_env`.
     """
     parts = [_envs_of_body(preset, robot_spec(robot), options) for robot in preset.robots]
     return parts[0] if len(parts) == 1 else JoinedVecEnv(parts)
@@ -109,9 +109,9 @@ def _where(preset: Preset, robot: RobotSpec, count: int) -> list[dict[str, Any]]
 
 
 def dealt(episodes: Sequence[Episode], count: int) -> list[list[Episode]]:
-    """Episodes by floor plan, plan after plan to one of so many environments.
+    """Distribute episodes over environments by floor plan.
 
-    An environment that stays on one plan need not be set up anew for each episode.
+    An environment that stays on one plan need not be set up again for each episode.
 
     Raises:
         ValueError: fewer floor plans than environments.

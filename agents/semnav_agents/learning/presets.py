@@ -1,4 +1,4 @@
-"""Presets of training: what to learn, and how."""
+"""Presets of training: task, demonstrations and hyperparameters."""
 
 from __future__ import annotations
 
@@ -52,19 +52,19 @@ class PPOSettings:
 
 @dataclass(frozen=True)
 class Preset:
-    """What to learn, where and for how long.
+    """Settings of a training: bodies, commands, floor plans and duration.
 
     Attributes:
         name: as in `semnav train NAME`.
         robots: names of the bodies, all of which one policy drives.
-        floor_plan: where commands are given; not used with `episodes`.
+        floor_plan: floor plan of the commands; not used with `episodes`.
         trials: commands and start poses, one of which is drawn for each episode; none for random
             commands.
         episodes: split whose episodes are drawn instead; empty for none.
         max_seconds: time limit of an episode, simulated seconds.
         repeat: steps of the environment (1/15 s each) for which one decision holds.
         envs: number of environments of each body that are driven at once.
-        steps: number of decisions to train for, unless told otherwise.
+        steps: default number of decisions of the training.
         ppo: hyperparameters.
         demonstrations: number of drives of the scripted agent that are imitated first.
         rewards: weights of the rewards. Contact costs more than in the environment itself:
@@ -90,7 +90,7 @@ class Preset:
         return max(robot_spec(robot).action_size for robot in self.robots)
 
     def plain(self) -> dict[str, Any]:
-        """As the plain data of a JSON file."""
+        """The preset as plain data for a JSON file."""
         return dict(json.loads(json.dumps(asdict(self))))
 
 

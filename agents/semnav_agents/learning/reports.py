@@ -1,4 +1,4 @@
-"""What a training says of itself while it runs."""
+"""Reports of a training while it runs."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class TrainingReport:
 
 
 class Preparation(NamedTuple):
-    """What comes before the first rollout, and how far it is.
+    """The progress of the preparation before the first rollout.
 
     Attributes:
         phase: "demonstrations" are driven, or in "cloning" a policy learns from them.

@@ -1,4 +1,4 @@
-"""The vector environment as stable-baselines3 takes it."""
+"""The vector environment as a `VecEnv` of stable-baselines3."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ def as_sb3_vec_env(
 
         model = PPO("MultiInputPolicy", VecMonitor(as_sb3_vec_env(16, floor_plan="office_cross")))
 
-    It gives what a `DummyVecEnv` of as many `SemNavEnv` gives, bit for bit, in less time.
+    It gives the same values as a `DummyVecEnv` of as many `SemNavEnv`, bit for bit, in less time.
 
     Args:
-        envs: how many robots to make, or a `SemNavVectorEnv` that resets in the same step.
+        envs: number of robots, or a `SemNavVectorEnv` that resets in the same step.
         all_infos: whether every info is filled in. Otherwise infos are filled in where an episode
             is over, which is what stable-baselines3 reads, and hold "TimeLimit.truncated" alone
             elsewhere.
@@ -84,7 +84,7 @@ class SB3VecEnv(VecEnv):
         return observations
 
     def step_async(self, actions: Array) -> None:
-        """Take in the actions."""
+        """Store the actions for `step_wait`."""
         self._actions = actions
 
     def step_wait(self) -> VecEnvStepReturn:
@@ -99,7 +99,7 @@ class SB3VecEnv(VecEnv):
         return observations, rewards.astype(np.float32), over, told
 
     def _final(self, infos: Infos, index: int) -> dict[str, Any]:
-        """What is said of a robot whose episode is over; keeps what is said of its next one."""
+        """The final info of a robot whose episode is over; the info of its next episode is kept."""
         begun = plain_info(infos, index)
         final: dict[str, Any] = begun.pop("final_info")
         self.reset_infos[index] = begun
@@ -127,7 +127,7 @@ class SB3VecEnv(VecEnv):
     def env_method(
         self, method_name: str, *arguments: Any, indices: VecEnvIndices = None, **options: Any
     ) -> list[Any]:
-        """What a method of single environments returns; `reset` and `step` are refused."""
+        """Call a method of the single environments; `reset` and `step` are refused."""
         methods = self.get_attr(method_name, indices)
         return [method(*arguments, **options) for method in methods]
 

@@ -13,7 +13,7 @@ from semnav_features.checked_fields import Bounds, check_fields
 
 @dataclass(frozen=True)
 class TrainingLimits:
-    """When a session ends.
+    """Limits at which a session ends.
 
     Attributes:
         steps: number of decisions in all, those of earlier sessions included.
@@ -39,7 +39,7 @@ class TrainingLimits:
 
 
 class Training(Protocol):
-    """A training, whatever it runs on."""
+    """A training, on any engine."""
 
     @property
     def steps(self) -> int:
@@ -52,7 +52,7 @@ class Training(Protocol):
         ...
 
     def prepare(self) -> Iterator[Preparation]:
-        """Do what comes before the first rollout; what it gave is saved at its end."""
+        """Make the preparation before the first rollout, and save its result."""
         ...
 
     def advance(self) -> TrainingReport:
@@ -60,7 +60,7 @@ class Training(Protocol):
         ...
 
     def save(self) -> None:
-        """Write the files of the agent, each in one move."""
+        """Write the files of the agent, each in one atomic step."""
         ...
 
     def close(self) -> None:

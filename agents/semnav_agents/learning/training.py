@@ -40,7 +40,7 @@ class Trainer:
     """One training, kept in one folder.
 
     Args:
-        preset: what to learn.
+        preset: the settings of the training.
         folder: for the agent and, in `tensorboard`, the curves; made if it does not exist.
         seed: of weights, trials, noise and exploration.
     """
@@ -58,10 +58,9 @@ class Trainer:
 
     @classmethod
     def resume(cls, preset: Preset, folder: Path) -> Trainer:
-        """Continue the training in a folder.
+        """Continue the training in a folder from its last checkpoint.
 
-        It goes on from the last checkpoint, whose number of decisions it takes over, and learns
-        bit for bit what the training would have learned had it not been interrupted.
+        The result is, bit for bit, that of a training without an interruption.
 
         Raises:
             ValueError: the folder holds no training, a damaged one or one of another preset.
@@ -80,7 +79,7 @@ class Trainer:
         """Imitate the demonstrations of the preset, if it has any and nothing was learned yet.
 
         Yields:
-            How far that is, after each demonstration and each pass; saves before the last one.
+            The progress after each demonstration and each pass; saves before the last one.
         """
         count = self.preset.demonstrations
         if not count or self.steps or self._imitated:
@@ -121,7 +120,7 @@ class Trainer:
         return report
 
     def save(self) -> None:
-        """Write the agent as it is and, where training can be resumed from here, a checkpoint."""
+        """Write the present agent and, if training can be resumed from here, a checkpoint."""
         policy = _actor(self.model)
         if self.is_resumable:
             save_checkpoint(self.folder, write_state(self.model, self._imitated))

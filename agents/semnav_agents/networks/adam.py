@@ -1,4 +1,4 @@
-"""What Adam keeps for each parameter, as named tensors PREFIX + KEY + "." + MOMENT."""
+"""The moments of Adam for each parameter, as named tensors PREFIX + KEY + "." + MOMENT."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The card of a network: what it is, how it was trained and what is known of it, as JSON.
+"""The card of a network as JSON: its settings, its training, and notes on its data and results.
 
 A folder holds one network: its `card.json`, and its weights in `weights.safetensors` beside it.
 """
@@ -29,7 +29,7 @@ BUNDLED_FOLDER = Path(__file__).parents[1] / "pretrained"
 
 @dataclass(frozen=True)
 class NetworkSettings:
-    """The settings of one kind of network: what an agent needs to know to run it."""
+    """The settings that an agent needs to run one kind of network."""
 
     KIND = ""
     """What the cards of this kind of network call it."""
@@ -40,7 +40,7 @@ class TransformerSettings(NetworkSettings):
     """Sizes of a transformer.
 
     Attributes:
-        width: numbers of an element or a word inside.
+        width: size of the encoding of an element or a word.
         heads: of the attention.
         layers: of the encoder, and of a decoder.
         hidden: width of the perceptrons between.
@@ -68,8 +68,8 @@ class Card(Generic[Settings]):
         settings: of the network.
         preset: that was trained, as plain data.
         seed: of the training.
-        notes: what else is to be known: data, results, limits.
-        curve: what was measured while training, one row for each epoch and each chunk of episodes.
+        notes: further facts: data, results, limits.
+        curve: measures of the training, one row for each epoch and each chunk of episodes.
     """
 
     settings: Settings
@@ -120,7 +120,7 @@ _FIELD_TYPES: dict[str, type] = {
 
 
 def card_fields(folder: Path) -> dict[str, Any]:
-    """The fields of the card in a folder, of whatever network, each of its type.
+    """The fields of the card in a folder, for any kind of network; checks the types.
 
     Raises:
         ValueError: there is none, or it is damaged.
@@ -154,7 +154,7 @@ def network_folder(source: str | Path) -> Path:
 
 
 def network_kind(source: str | Path) -> str:
-    """What kind of network a name or a folder holds; empty if there is no card.
+    """The kind of the network of a name or a folder; empty if there is no card.
 
     Raises:
         ValueError: the card is damaged.

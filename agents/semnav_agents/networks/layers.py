@@ -1,4 +1,4 @@
-"""Layers of the learned networks as they run: NumPy alone, weights by name.
+"""Layers of the learned networks in NumPy alone, with weights by name.
 
 Each layer that has weights has its shapes beside it: a network declares its tensors with those, and
 applies them by the same names.

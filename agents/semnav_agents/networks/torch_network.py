@@ -1,4 +1,4 @@
-"""Networks as they are trained: parameters by the names of the files, and the layers, in torch."""
+"""Networks for training, in torch: the layers, and parameters by the names of the files."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Draw = Callable[[str, tuple[int, ...], torch.Generator], Tensor]
 
 
 class TorchNetwork(nn.Module):
-    """A network with named parameters; biases begin at 0, and norms change nothing at first.
+    """A network with named parameters; biases start at 0, and norms start as the identity.
 
     Args:
         shapes: of the parameters by name; they have these names with "_" for ".".

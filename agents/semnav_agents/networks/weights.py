@@ -76,7 +76,7 @@ def load_tensors(path: Path) -> Tensors:
 
 
 def pop_count(tensors: Tensors, name: str) -> int:
-    """Take a tensor that holds a count out of others.
+    """Remove the tensor of a count from named tensors, and return the count.
 
     Raises:
         ValueError: it is missing, or no count.

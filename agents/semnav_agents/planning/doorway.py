@@ -34,7 +34,7 @@ a body in any heading, and the radius of the region in which it is through."""
 
 
 def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
-    """Points that bar the doorways of other doors, except one in which the robot stands.
+    """Points that block the doorways of other doors, except one in which the robot stands.
 
     Args:
         doors: x and y of both jambs, metres, robot frame, shape (n, 4).
@@ -54,8 +54,7 @@ def barriers_across(doors: FloatArray, robot: RobotSpec) -> FloatArray:
 def room_behind(gate: tuple[Point, Point], target: Pose) -> FloatArray:
     """Points along the walls of a room behind a gate that is open at the gate alone.
 
-    What a robot has not seen counts as free. These walls keep a path to the target from leading
-    through the wall beside the door.
+    Unseen space counts as free; these walls prevent a path through the wall beside the door.
 
     Args:
         gate: the jambs, metres.
@@ -75,7 +74,7 @@ def room_behind(gate: tuple[Point, Point], target: Pose) -> FloatArray:
 
 
 def target_behind(door: Door, approach: Point) -> DriveTarget:
-    """A target wholly through the door, in any heading: a leaf may bar the way along its axis.
+    """A target completely behind the door, with any heading: a leaf may block the door's axis.
 
     Args:
         door: its two jambs.

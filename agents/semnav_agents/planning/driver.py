@@ -31,11 +31,11 @@ NO_POINTS: FloatArray = np.empty((0, 2))
 """No obstacle points, shape (0, 2)."""
 
 STANDSTILL = Steering(0.0, 0.0, 0.0, PathProgress())
-"""Stand still, or brake."""
+"""Velocity zero: stand still, or brake."""
 
 REPLAN_SHARE = 0.3
-"""A partial path is planned anew when a metre of it is left, or this share of a shorter one. Most
-of it must have been driven: from the same place the same path would be found again."""
+"""Share of a partial path that is left when it is planned again; for long paths, one metre is left.
+Most of the path must have been driven: from the same place the same path would be found again."""
 
 LOOKAHEAD = 4.0
 """Distance beyond which obstacles do not matter to the next metres of a path, metres."""
@@ -43,7 +43,7 @@ LOOKAHEAD = 4.0
 
 @dataclass
 class Driver:
-    """Drives one robot to targets, planning again when that is needed.
+    """Drives one robot to targets, and plans again when needed.
 
     It plans again when the target moves, when an obstacle lies on the path, when the robot is off
     the path, and when a path that led only part of the way is nearly driven.
@@ -53,10 +53,10 @@ class Driver:
         planner: the planner's settings.
         follower: the follower's settings.
         check_every: steps between two checks whether the path is still free.
-        tolerance: loss of clearance at which a path is planned anew, metres.
-        insist_after: refusals of a steering in a row after which it is let through.
-        retry_after: steps to stand still where no way leads on.
-        detour: largest length of a way around barriers, as a multiple of the direct way.
+        tolerance: loss of clearance at which a path is planned again, metres.
+        insist_after: number of refusals in a row after which a steering is allowed.
+        retry_after: steps to stand still where there is no path.
+        detour: largest length of a path around barriers, as a multiple of the direct path.
     """
 
     robot: RobotSpec
@@ -123,7 +123,7 @@ class Driver:
         return self._guarded(points, pose, velocity, steering)
 
     def _stop(self) -> Steering:
-        """Brake, and plan anew from standstill."""
+        """Brake, and plan again from standstill."""
         self._track, self._braking = None, True
         return STANDSTILL
 
@@ -136,7 +136,8 @@ class Driver:
     ) -> Steering:
         """The steering, slowed down or refused where it leads into an obstacle.
 
-        After `insist_after` refusals in a row it is let through slowly: the obstacle may be noise.
+        After `insist_after` refusals in a row it is allowed slowly, because the obstacle may be
+        noise.
         """
         seen = points_around(pose, points, 1.5 * self.robot.length)
         share = safe_share(seen, steering.twist, velocity, self.robot)
@@ -173,7 +174,7 @@ class Driver:
         velocity: Twist,
         barriers: FloatArray,
     ) -> None:
-        """Plan from the robot's pose; while it drives, from where it can stop on the old path."""
+        """Plan from the robot's pose; while it drives, from where it can stop on its path."""
         kept = self._path_to_stop(points, pose, velocity)
         start = pose if kept is None else kept.end
         self.path = self._path_around(points, start, target, barriers)
@@ -213,7 +214,7 @@ class Driver:
         return path
 
     def _leads(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
-        """Whether a path leads to the target, and as it should."""
+        """Whether a path leads to the target through its gate and through no barrier."""
         return path.complete and self._heads_right(path, target, barriers)
 
     def _heads_right(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
@@ -223,7 +224,7 @@ class Driver:
         return is_free(barriers, path.poses, self.robot)
 
     def _path_to_stop(self, points: FloatArray, pose: Pose, velocity: Twist) -> PlannedPath | None:
-        """The stretch of the old path that braking needs; None if it is not free or not there."""
+        """The part of the old path that braking needs; None if it is not free or missing."""
         speed = math.hypot(velocity[0], velocity[1])
         if self._track is None or self.path is None or speed < 0.1:
             return None
@@ -277,7 +278,7 @@ def _apart(a: DriveTarget, b: DriveTarget) -> bool:
 def _asks_for_more(a: DriveTarget, b: DriveTarget) -> bool:
     """Whether a path to the first target may end where the second is not reached yet.
 
-    So it is where a place to look from turns out to be the place to stop at.
+    This happens when a lookout point becomes the place at which to stop.
     """
     heading = a.heading_tolerance is None and b.heading_tolerance is not None
     return heading or b.position_tolerance < a.position_tolerance

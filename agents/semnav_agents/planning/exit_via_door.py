@@ -1,4 +1,4 @@
-"""Where to drive to get through a door, and where else if that fails (Mes 2021, 2.1 and 9.1.2)."""
+"""Targets for driving through a door, with alternatives (Mes 2021, 2.1 and 9.1.2)."""
 
 from __future__ import annotations
 
@@ -27,14 +27,15 @@ POSES_TRIED = 6
 SAME_DOOR_DISTANCE = 0.5
 """Distance of their middles below which two doors are the same, metres."""
 
-AROUND_DOOR = 2.5
+MAX_OBSTACLE_DISTANCE = 2.5
 """Distance from the middle of a door within which obstacles matter to the poses, metres."""
 
 POINT_RADIUS = 0.03
 """Radius of an obstacle point, metres: remembered ones are 5 cm apart."""
 
 PAUSE = 30
-"""Steps after the last way failed before they are tried anew: somebody may stand in the door."""
+"""Steps before all ways are tried again after the last one failed: a person may stand in the
+door."""
 
 WayThrough = tuple[Pose | None, ...]
 """Poses to drive to in turn, in the frame of the door; None for the region behind it."""
@@ -50,7 +51,7 @@ class ExitViaDoor:
 
     Attributes:
         robot: the body.
-        alternatives: whether to try anything but the region behind the door.
+        alternatives: whether to try other poses than the region behind the door.
     """
 
     robot: RobotSpec
@@ -61,7 +62,7 @@ class ExitViaDoor:
     _pause: int = field(default=0, init=False)
 
     def target(self, side: DoorSide) -> DriveTarget:
-        """Where to drive now.
+        """The present target.
 
         Args:
             side: the door and the side from which it is passed, in any frame; a door within
@@ -79,19 +80,19 @@ class ExitViaDoor:
         return DriveTarget(place, *tolerances, gate=gate if last else None)
 
     def reached(self) -> None:
-        """Go on to the next pose of the way; at the last one, begin again."""
+        """Move on to the next pose of the way; after the last one, begin again."""
         self._way = self._way[1:] or (None,)
 
     def failed(self, points: FloatArray, end: Pose) -> bool:
-        """Give up the target, and take the next way; returns whether there is one.
+        """Give up the target, and choose the next way; returns whether there is one.
 
-        A path that ends far from the door leads nearer to it, and is worth driving.
+        A path that ends far from the door still leads nearer to it, and is driven.
 
         Args:
             points: obstacles, in the frame of the door, shape (n, 2).
             end: where the path to the target ends before it, in that frame.
         """
-        far = self._door is None or math.dist(end[:2], self._door.middle) > AROUND_DOOR
+        far = self._door is None or math.dist(end[:2], self._door.middle) > MAX_OBSTACLE_DISTANCE
         if self._door is None or far or not self.alternatives:
             return False
         way = next(self._ways, None)
@@ -105,8 +106,8 @@ class ExitViaDoor:
 
 
 def _ways(side: DoorSide, points: FloatArray, robot: RobotSpec) -> Iterator[WayThrough]:
-    """The ways through a door among obstacles, the one to try first first."""
-    near = points[np.hypot(*(points - side.middle).T) < AROUND_DOOR]
+    """The ways through a door among obstacles, in the order in which they are tried."""
+    near = points[np.hypot(*(points - side.middle).T) < MAX_OBSTACLE_DISTANCE]
     solid = Surroundings(np.empty((0, 4)), np.empty((0, 4))).with_points(near, POINT_RADIUS)
     behind = _poses(side.opposite, solid, robot)
     leaving = [
@@ -129,7 +130,7 @@ def _poses(side: DoorSide, solid: Surroundings, robot: RobotSpec) -> list[Pose]:
 
 
 def _both(side: DoorSide, pose: Pose) -> tuple[Pose, Pose]:
-    """A pose behind the door that looks at it, as one leaves forwards, and backwards."""
+    """A pose behind the door for leaving forwards, and the turned pose for leaving backwards."""
     local = relative(side.frame, pose)
     return compose(local, (0.0, 0.0, math.pi)), local
 

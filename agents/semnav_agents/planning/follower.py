@@ -18,7 +18,7 @@ drives in one step."""
 
 @dataclass(frozen=True, slots=True)
 class PathProgress:
-    """How far a path has been driven: the index of the leg, and of the last sample passed."""
+    """The progress along a path: the index of the leg, and of the last sample passed."""
 
     leg: int = 0
     sample: int = 0
@@ -46,17 +46,17 @@ class Steering:
 
     @property
     def twist(self) -> Twist:
-        """The velocity that is wanted."""
+        """The velocity as a twist."""
         return self.forward, self.left, self.yaw_rate
 
     def slowed(self, share: float) -> Steering:
-        """The same steering at that share of its velocity."""
+        """A steering with a share of the velocity and the same curvature."""
         forward, left, yaw_rate = (share * value for value in self.twist)
         return replace(self, forward=forward, left=left, yaw_rate=yaw_rate)
 
 
 def follow(track: PathTrack, progress: PathProgress, pose: Pose, velocity: Twist) -> Steering:
-    """The velocities that keep the robot on its path.
+    """Compute the velocities that keep the robot on its path.
 
     Args:
         track: the path and the robot.
@@ -133,7 +133,7 @@ def _holonomic(
     error: float,
     bend: float,
 ) -> Steering:
-    """Steering along the path's direction, and straight back to it where the robot is off it."""
+    """Steering along the path's direction, and straight back to the path after a deviation."""
     direction = _direction(track, leg, progress.sample)
     heading = float(track.path.axle_poses[progress.sample, 2]) + error
     off = -across if leg.kind == REVERSE else across
@@ -204,7 +204,7 @@ def _ahead(track: PathTrack, leg: PathLeg, sample: int, distance: float) -> int:
 
 
 def _strayed(track: PathTrack, distance: float, velocity: Twist) -> float:
-    """Deviation, metres, of a robot that far from where it should turn.
+    """Deviation of a robot from the place at which it should turn, metres.
 
     While the robot brakes, the distance that braking needs is left out. Once it stands, every
     centimetre counts more, because the turn was tested at that place alone.

@@ -1,4 +1,4 @@
-"""A last check of a steering: does it lead into an obstacle within the next moments?"""
+"""The last check of a steering: whether it leads into an obstacle within a short time."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The coarse way to a target, for a disc that is as wide as the robot."""
+"""Coarse paths to a target, for a disc as wide as the robot."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ MAX_DETOURS = 4
 
 @dataclass(frozen=True, eq=False)
 class Guidance:
-    """The coarse way to a target, and the time it takes from every cell.
+    """A coarse path to a target, and the time to the target from every cell.
 
     Attributes:
-        place: where it leads, metres: the target, or what stands in for it.
+        place: its end, metres: the target, or the place that replaces it.
         exact: whether `place` is the target.
-        reachable: whether the target, or the window's edge towards it, can be reached.
+        reachable: whether the target, or the edge of the window towards it, can be reached.
         time: seconds to `place` from every cell.
         room: of `heuristic.room_grid`, with gaps that are too narrow closed.
         seconds: duration of the way to the target, infinite if it cannot be reached.
@@ -58,10 +58,11 @@ def guidance_to(
     margin: float,
     costs: MotionCosts,
 ) -> Guidance:
-    """The coarse way from the start to the target, or as far towards it as possible.
+    """Compute the coarse path from the start to the target, or as far towards it as possible.
 
-    A target outside the window is replaced by the place on the window's edge from which it is
-    nearest by way of free space; one that is cut off, by the reachable place nearest to it.
+    A target outside the window is replaced by the place on the edge of the window from which the
+    path through free space is shortest. A target that is cut off is replaced by the nearest
+    reachable place.
     """
     room = room_grid(field, body, margin)
     sources, first = _sources(field, room, target, costs)
@@ -96,7 +97,7 @@ def _way(time: FloatArray, field: ObstacleField, start: Point) -> NDArray[np.int
 def _sources(
     field: ObstacleField, room: FloatArray, target: Point, costs: MotionCosts
 ) -> tuple[NDArray[np.int64], FloatArray]:
-    """The target's cell; or all free cells on the edge, with the time beyond as the crow flies."""
+    """The cell of the target, or all free edge cells with the time of a straight line beyond."""
     n = len(room)
     j, i = coarse_cell(field, *target)
     if 0 <= j < n and 0 <= i < n:

@@ -1,4 +1,4 @@
-"""Moves of constant twist, what they cost, and whether they are free.
+"""Moves of constant twist, their costs, and collision checks.
 
 A move (d, 0, 0) is a straight line, (0, 0, a) a turn on the spot, and (d, 0, a) an arc of radius
 d / a. An array of moves has a row (forward, left, turn) for each, shape (M, 3).
@@ -42,7 +42,7 @@ class Move(NamedTuple):
 
 
 class MotionCosts(NamedTuple):
-    """What a move costs, in seconds.
+    """Costs of moves, in seconds.
 
     Attributes:
         speed: forward, m/s.

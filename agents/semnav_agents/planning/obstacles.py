@@ -23,7 +23,7 @@ from semnav_features.frames import FloatArray, Pose, wrap_angle
 
 @dataclass(frozen=True)
 class MemorySettings:
-    """How long and how finely obstacles are remembered.
+    """Duration and resolution of the memory of obstacles.
 
     Attributes:
         radius: distance from the lidar beyond which hits are neither taken nor kept, metres.
@@ -58,8 +58,8 @@ class MemorySettings:
 class ObstacleMemory:
     """Centres of the hits of recent scans, at most one in each voxel of 5 cm.
 
-    A centre that beams pass through is cleared. A centre out of view is kept until the robot has
-    driven or turned so far that odometry no longer tells where the centre is.
+    A centre through which beams pass is cleared. A centre out of view is kept until the robot has
+    driven or turned so far that odometry no longer determines its position.
     """
 
     def __init__(self, settings: MemorySettings | None = None) -> None:
@@ -77,7 +77,7 @@ class ObstacleMemory:
     def update(
         self, lidar_pose_in_odom: Pose, ranges: ArrayLike, directions: FloatArray, range_max: float
     ) -> None:
-        """Take in one scan.
+        """Add one scan.
 
         Args:
             lidar_pose_in_odom: metres and radians.
@@ -155,7 +155,7 @@ def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArra
         shape (N, 2).
 
     Raises:
-        FloorPlanError: that is more than the budget allows.
+        FloorPlanError: there are more points than the budget allows.
     """
     starts, ends = segments[:, :2], segments[:, 2:]
     counts = point_counts(segments, spacing)
@@ -169,6 +169,6 @@ def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArra
 
 
 def point_counts(segments: FloatArray, spacing: float = 0.02) -> NDArray[np.intp]:
-    """How many of `points_of_segments` lie on each segment, shape (n,)."""
+    """Number of the `points_of_segments` on each segment, shape (n,)."""
     lengths = np.hypot(segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1])
     return np.maximum(2, np.ceil(lengths / spacing).astype(np.intp) + 1)

@@ -32,14 +32,14 @@ from semnav_features.frames import FloatArray, Point, Pose, compose
 
 @dataclass(frozen=True)
 class DriveTarget:
-    """Where the robot's centre is to go.
+    """The target of the robot's centre.
 
     Attributes:
         pose: (x, y, heading) in the frame of the obstacle points.
         position_tolerance: metres.
         heading_tolerance: radians; None where any heading will do.
-        gate: the ends of a line that the path should cross, such as the jambs of a door; heeded
-            by `Driver`, not by `plan`.
+        gate: the ends of a line that the path should cross, such as the jambs of a door; `Driver`
+            uses it, `plan` does not.
     """
 
     pose: Pose
@@ -54,7 +54,7 @@ Effort: TypeAlias = tuple[Annotated[float, Bounds(1.0, 100.0)], Count]
 
 @dataclass(frozen=True)
 class PlannerSettings:
-    """Limits and prices of the planner.
+    """Limits and costs of the planner.
 
     Attributes:
         margins: distances to keep from obstacles, the widest first, metres.
@@ -62,8 +62,8 @@ class PlannerSettings:
         half_window: half the side of the square around the start in which is planned, metres; it
             grows with the distance of the target up to `widest`.
         widest: the largest half window, metres.
-        speed: with which straight lines are counted, m/s.
-        turn_rate: with which turns on the spot are counted, rad/s.
+        speed: assumed speed on straight lines, m/s.
+        turn_rate: assumed yaw rate of turns on the spot, rad/s.
         reverse: factor on the time of backward motion.
         stop: cost of a change between turning, forward and backward motion, seconds.
         steering: cost of a change of curvature by 1/m, seconds.
@@ -97,7 +97,7 @@ def plan(
     robot: RobotSpec,
     settings: PlannerSettings | None = None,
 ) -> PlannedPath:
-    """A path from a pose of the centre to a target; everywhere but at the points counts as free.
+    """Plan a path from a pose of the centre to a target; all space except the points is free.
 
     Args:
         points: obstacle points, metres, shape (N, 2); those that are not finite are left out.
@@ -150,9 +150,9 @@ def _ways(
     costs: MotionCosts,
     settings: PlannerSettings,
 ) -> Iterator[Guidance]:
-    """The coarse ways for all margins, the most promising first; at least one.
+    """The coarse paths for all margins, the most promising first; at least one.
 
-    No way is quicker than the one for the smallest margin. If the one for the widest margin is
+    No path is quicker than the one for the smallest margin. If the path for the widest margin is
     hardly slower, it is the best, and the others need not be computed.
     """
 
@@ -178,7 +178,7 @@ def _search(
     settings: PlannerSettings,
     guidance: Guidance,
 ) -> PlannedPath:
-    """The path along one coarse way."""
+    """The path along one coarse path."""
     axle, full = compose(start, (robot.axle, 0.0, 0.0)), guidance.margin
     costs = _costs(robot, settings)
     margin = SafetyMargin(full, _start_room(field, body, axle, full), 0.1, axle[0], axle[1])
@@ -208,7 +208,7 @@ def _search(
 
 
 def _aim(target: DriveTarget, guidance: Guidance, robot: RobotSpec) -> Aim:
-    """The target, or a region around the place that stands in for it."""
+    """The target, or a region around the place that replaces it."""
     x, y = guidance.place
     if not guidance.exact:
         return Aim(x, y, 0.0, max(0.3, target.position_tolerance), 0.0, True, robot.axle)
@@ -218,7 +218,7 @@ def _aim(target: DriveTarget, guidance: Guidance, robot: RobotSpec) -> Aim:
 
 
 def _half_window(start: Pose, target: DriveTarget, settings: PlannerSettings) -> float:
-    """Wide enough for the target and a way around something near it."""
+    """Half the side of the window: wide enough for the target and a detour near it."""
     away = max(abs(target.pose[0] - start[0]), abs(target.pose[1] - start[1]))
     return min(max(settings.half_window, away + 3.0), settings.widest)
 

@@ -1,4 +1,4 @@
-"""A path made ready to be followed: its legs between stops, and its speed profile."""
+"""A path prepared for the follower: its legs between stops, and its speed profile."""
 
 from __future__ import annotations
 

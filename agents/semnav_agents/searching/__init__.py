@@ -1,1 +1,1 @@
-"""Searching a house: a map of what was looked at, places to look from, and people to go to."""
+"""Searching a house: a map of inspected floor, poses to look from, and people to approach."""

@@ -45,16 +45,16 @@ from semnav_features.frames import (
 from semnav_features.lidar_spec import LidarSpec
 
 UPDATE_EVERY = 3
-"""Control periods between two scans that the map takes in: the detector looks as often."""
+"""Control periods between two scans that are added to the map: the period of the detector."""
 
-LASTING = MemorySettings(travel=60.0, turned=120.0, scans=6000, capacity=16384)
-"""A memory for obstacles of a whole house: walls seen again correct the drift meanwhile."""
+HOUSE_MEMORY = MemorySettings(travel=60.0, turned=120.0, scans=6000, capacity=16384)
+"""Obstacle memory for a whole house: walls that are seen again correct the drift."""
 
-CAREFUL = PlannerSettings(margins=(0.10, 0.06, 0.04))
-"""A search need not squeeze in everywhere: what cannot be reached with a margin is left out."""
+CAREFUL_PLANNER = PlannerSettings(margins=(0.10, 0.06, 0.04))
+"""Planner settings of a search: places that cannot be reached with a margin are left out."""
 
-SQUEEZING = PlannerSettings()
-"""For a robot that is stuck: it got in, so it may get out without the margin."""
+STUCK_PLANNER = PlannerSettings()
+"""Planner settings of a stuck robot: it came in, so it may get out without the margin."""
 
 NO_DOORS: FloatArray = np.empty((0, 4))
 
@@ -70,7 +70,7 @@ class Explorer:
 
     def __init__(self, settings: SearchSettings = SearchSettings()) -> None:
         self.settings = settings
-        self._obstacles = ObstacleMemory(LASTING)
+        self._obstacles = ObstacleMemory(HOUSE_MEMORY)
         self._house: HousePlan | None = None
 
     @property
@@ -101,7 +101,7 @@ class Explorer:
         self._unseen: FloatArray = np.empty((0, 2))
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
-        """The next action; it stands still when nothing is left to look at."""
+        """The next action; the robot stands still when nothing is left to inspect."""
         pose, velocity = read_odometry(observation)
         self._see(pose, observation["scan"])
         people = [
@@ -111,7 +111,7 @@ class Explorer:
         target = self._searcher.update(pose, people)
         if target is None:
             return self._pilot.act(self._remembered, NO_DOORS, _stop(), pose, velocity)
-        self._pilot.driver.planner = SQUEEZING if self._searcher.stuck else CAREFUL
+        self._pilot.driver.planner = STUCK_PLANNER if self._searcher.stuck else CAREFUL_PLANNER
         goal = SeenGoal(GoalKind.REACH, relative(pose, target), None)
         return self._pilot.act(self._points(observation, pose), NO_DOORS, goal, pose, velocity)
 
@@ -135,7 +135,7 @@ class Explorer:
         self._steps += 1
 
     def _points(self, observation: Observation, pose: Pose) -> FloatArray:
-        """Everything to drive around, odometry frame, shape (n, 2)."""
+        """All obstacle points, odom frame, shape (n, 2)."""
         bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
         points = [self._remembered, self._unseen]
         if len(bumps):
@@ -146,8 +146,8 @@ class Explorer:
 class PlanSearcher(Explorer):
     """Searches a house whose plan it knows: walls, doors and rooms, but no furniture.
 
-    It is told where in the plan it starts; from then on it has its believed pose, whose drift the
-    walls that are seen again correct.
+    It knows its start pose in the plan; from then on it uses its believed pose, whose drift is
+    corrected by walls that are seen again.
     """
 
     def __init__(self, settings: SearchSettings = SearchSettings()) -> None:

@@ -1,4 +1,4 @@
-"""What a robot that knows the plan of a house puts into its map: walls and rooms, no furniture."""
+"""Walls and rooms of the floor plan in the map of a robot that knows the plan; no furniture."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class HousePlan:
     """Walls and rooms of a plan in the odometry frame of a robot.
 
     Args:
-        plan: of the house; what is not built, furniture and people, is not looked at.
-        start: pose of the robot at the start, world frame: it is told where it stands.
+        plan: of the house; furniture and people in it are ignored.
+        start: pose of the robot at the start, world frame, which the robot is given.
 
     Attributes:
         wall_points: on the walls, 5 cm apart, odometry frame, shape (n, 2).
@@ -39,7 +39,7 @@ class HousePlan:
         self._plan, self._start = plan, start
 
     def chart(self, settings: SearchSettings) -> SearchMap:
-        """A map of the house with its walls and rooms, in which nothing has been looked at."""
+        """A map with the walls and rooms of the house, in which no floor has been searched."""
         lower, upper = self.wall_points.min(axis=0) - MARGIN, self.wall_points.max(axis=0) + MARGIN
         chart = SearchMap(settings, tuple(lower.tolist()), tuple(upper.tolist()))
         chart.walls[chart.grid.cells(*self.wall_points.T)] = True
@@ -53,6 +53,6 @@ class HousePlan:
         return chart
 
     def unseen_walls(self, chart: SearchMap, known: Mask) -> FloatArray:
-        """Points of walls of which the lidar has seen nothing near, shape (n, 2)."""
+        """Points of walls near which no beam has ended, shape (n, 2)."""
         unseen: FloatArray = self.wall_points[~known[chart.grid.cells(*self.wall_points.T)]]
         return unseen

@@ -1,8 +1,8 @@
-"""The robot's own map for a search: what is solid, free, safe, and looked at; odometry frame.
+"""The robot's map for a search: solid, free, safe and searched cells, odometry frame.
 
-Beams are cast twice, as Visser et al. propose ("Beyond frontier exploration", RoboCup 2007): up to
-a short range they make the floor safe to drive on, and up to a long one they show floor that is
-probably free. What is free but not safe lies beyond the frontier, and is where to go and look.
+Beams are cast twice, as Visser et al. propose ("Beyond frontier exploration", RoboCup 2007). Up to
+a short range they make the floor safe to drive on, and up to a long range they show floor that is
+probably free. Floor that is free but not safe lies beyond the frontier, and is the next to explore.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ class SearchMap:
         FloorPlanError: it would have too many cells.
 
     Attributes:
-        grid: where the cells lie.
+        grid: corner and size of the cells.
         hits: evidence that a cell is solid, shape (rows, columns).
-        found: what cells were found to be, bits, same shape.
-        tries: how often a look did not show what it was expected to, same shape.
-        walls: cells of walls that the plan tells of, same shape; none without a plan.
+        found: properties of each cell, bits, same shape.
+        tries: how often a cell stayed unseen from a pose that was expected to show it, same shape.
+        walls: cells of walls of the plan, same shape; none without a plan.
         rooms: number of the plan's room of each cell, -1 for none, same shape.
     """
 
@@ -64,7 +64,7 @@ class SearchMap:
     def update(
         self, eye: Pose, directions: FloatArray, ranges: FloatArray, fov: float, view: float
     ) -> None:
-        """Take in a scan, with which the detector looks as well.
+        """Add a scan and the view of the detector at the same pose.
 
         Args:
             eye: believed pose of lidar and detector.
@@ -79,23 +79,23 @@ class SearchMap:
 
     @property
     def solid(self) -> Mask:
-        """Where something stands, or the plan has a wall."""
+        """Cells with an obstacle or a wall of the plan."""
         return np.asarray((self.hits >= SOLID) | self.walls)
 
     def solid_at(self, point: Point) -> bool:
-        """Whether something stands at a point."""
+        """Whether an obstacle stands at a point."""
         row, column = self.grid.cell(point)
         return bool(self.hits[row, column] >= SOLID or self.walls[row, column])
 
     def has(self, bits: int) -> Mask:
-        """Where cells were found to be that."""
+        """Cells that have a property."""
         return np.asarray((self.found & bits) > 0)
 
 
 def without_lost(ranges: FloatArray, range_max: float) -> FloatArray:
     """Ranges with NaN for the beams that do not return though a neighbour does.
 
-    Most likely they got lost: what they would have passed has not been seen.
+    Such beams were most likely lost, so the floor along them has not been seen.
 
     Args:
         ranges: metres, `range_max` for no return, shape (n,).
@@ -121,7 +121,7 @@ def _cast(
     view: float,
     least_cosine: float,
 ) -> None:
-    """Walk along each beam cell by cell, and note what it passes and where it ends."""
+    """Traverse each beam cell by cell; note the cells that it passes and the cell of its end."""
     rows, columns = hits.shape
     c, s = math.cos(eye[2]), math.sin(eye[2])
     step = spacing

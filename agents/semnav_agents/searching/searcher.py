@@ -1,4 +1,4 @@
-"""Decides where to go next in a search: to a place to look from, or to somebody."""
+"""Selects the next target of a search: a viewpoint, or a place in front of a suspected person."""
 
 from __future__ import annotations
 
@@ -29,22 +29,22 @@ HOME = 0.5
 
 @dataclass
 class Suspect:
-    """Somebody who may be a person, and the places from which it was looked at."""
+    """A suspected person, and the places from which the robot has observed it."""
 
     place: Point
     tried: list[Point] = field(default_factory=list)
 
 
 class Searcher:
-    """Goes from view to view and to whoever may be a person until nothing is left, then back.
+    """Visits viewpoints and suspected persons until none are left, then drives back.
 
     Args:
-        chart: the map, which is kept up to date elsewhere.
+        chart: the map, which the agent updates.
         looker: body and detector.
 
     Attributes:
-        target: where to go now, odometry frame; None when the search is over.
-        done: whether nothing is left to look at; the robot then leaves by the way it came in.
+        target: the pose to drive to, odometry frame; None when the search is over.
+        done: whether nothing is left to search; the robot then drives back to its start.
     """
 
     def __init__(self, chart: SearchMap, looker: Looker) -> None:
@@ -72,11 +72,11 @@ class Searcher:
         return self.chart.settings
 
     def update(self, pose: Pose, people: list[tuple[Point, float, bool]]) -> Pose | None:
-        """Where to go now; None when the search is over.
+        """Update the target and return it; None when the search is over.
 
         Args:
             pose: believed pose of the robot.
-            people: place, probability and whether it is reported, of whoever may be there.
+            people: place, probability and whether it is reported, of each suspected person.
         """
         self._steps += 1
         self._start = pose if self._start is None else self._start
@@ -97,12 +97,12 @@ class Searcher:
         return self.target
 
     def _look_back(self, pose: Pose, people: list[tuple[Point, float, bool]]) -> None:
-        """Ask now and then on the way back whether there is anything left after all."""
+        """Check now and then on the way back whether a target has appeared."""
         if self._steps % (5 * self._settings.recheck) == 0:
             self._choose(pose, people, only_people=False)
 
     def give_up(self) -> None:
-        """Leave the target aside: it cannot be reached. After two it goes back the way it came."""
+        """Give up a target that cannot be reached; after two, drive back along the path."""
         self._failed += 1
         if self._view is not None:
             self.chart.tries.ravel()[self._view.cells] += 1
@@ -115,7 +115,7 @@ class Searcher:
             self.target, self.done = back, False
 
     def _way_back(self) -> Pose | None:
-        """Where it was when it was last so far from here; what it tries next lies behind that."""
+        """The last pose of the path that is far enough away; the path after it is dropped."""
         here = self._trail[-1] if self._trail else None
         while self._trail and here is not None:
             if math.dist(self._trail[-1][:2], here[:2]) > self._settings.retreat:
@@ -141,7 +141,7 @@ class Searcher:
             self.give_up()
 
     def _note_progress(self, pose: Pose) -> None:
-        """Give up a target that the robot moves about but does not get nearer to."""
+        """Give up a target if the robot moves but does not come nearer to it."""
         if self.target is None or self._arrived(pose):
             self._nearest, self._since = math.inf, 0
             return
@@ -163,7 +163,7 @@ class Searcher:
         return near and turned < self._settings.heading_tolerance
 
     def _follow_view(self, pose: Pose) -> None:
-        """Drop a view that was taken, or that shows little that was not seen on the way."""
+        """Drop a view after the robot has stood there, or if little of it is still unseen."""
         assert self._view is not None
         s = self._settings
         self._looks += self._arrived(pose)
@@ -178,10 +178,10 @@ class Searcher:
                 self._drop()
 
     def _note_look(self, view: View, pose: Pose) -> None:
-        """Count a try for what a look was to show, two for what it ought to have shown from here.
+        """Add one try to unseen cells of a view, two to those that the present pose should show.
 
-        Robots do not come to stand just where they look best from. A place that showed less than
-        half of what was expected is not looked from again; one beside it may be.
+        A robot does not stop exactly at the pose of the view. A viewpoint that showed less than
+        half of its expected cells is not used again; a viewpoint beside it may be.
         """
         chart = self.chart
         ought = shown_from(chart, pose, self._looker)
@@ -192,12 +192,12 @@ class Searcher:
             self._refuse(view, self._settings.position_tolerance)
 
     def _left_share(self, view: View) -> float:
-        """Share of the cells of a view that are still to be looked at."""
+        """Share of the cells of a view that are still unseen."""
         left = wanted_cells(self.chart).ravel()[view.cells]
         return float(left.mean()) if len(left) else 0.0
 
     def _look_at_suspect(self, pose: Pose, people: list[tuple[Point, float, bool]]) -> None:
-        """Stand before somebody until it is clear who it is, or for a while."""
+        """Stand in front of a suspected person until the track is decided, or for a while."""
         assert self._suspect is not None
         place = self._suspect.place
         near = [each for each in people if math.dist(each[0], place) < SAME_PERSON]
@@ -239,7 +239,7 @@ class Searcher:
             self.target = self._start
 
     def _next_view(self, ways: Ways, pose: Pose) -> View | None:
-        """The best view; smaller ones are tried before another room and before the end."""
+        """The best view; smaller views are tried before another room and before the end."""
         s, rooms = self._settings, self.chart.rooms
         room = int(rooms[self.chart.grid.cell(pose[:2])])
         view = self._best(ways, pose, ViewGrid(s.candidate_spacing, s.rays))
@@ -255,7 +255,7 @@ class Searcher:
     def _next_suspect(
         self, pose: Pose, people: list[tuple[Point, float, bool]], near: bool
     ) -> Suspect | None:
-        """Whoever is to be looked at next: somebody near, or when nothing else is left anybody."""
+        """The next suspected person: one that is near, or any if no view is left."""
         s = self._settings
         reported = [place for place, _, done in people if done]
         for place, probability, done in sorted(people, key=lambda each: -each[1]):

@@ -11,40 +11,40 @@ from semnav_features.checked_fields import Bounds, Count, Length, Seconds, Share
 
 @dataclass(frozen=True)
 class SearchSettings:
-    """How a house is searched. All values were tuned on houses with seeds below 1000.
+    """Settings of a search; all values were tuned on houses with seeds below 1000.
 
     Attributes:
         spacing: between the cells of the map, metres.
-        half_side: half the side of the map where no plan is known, metres.
-        short_range: beams make the floor safe up to here, metres: so near, nothing hides between
-            two beams (Visser et al. 2007 have two such ranges).
-        long_range: beams show free floor up to here, metres.
-        clearance: least distance from the body where it is to stand to anything solid, metres.
-        candidate_spacing: between places to look from, metres.
-        rays: directions in which the gain of a place is estimated.
-        fine_spacing: as `candidate_spacing`, once a coarse lattice finds no place, metres.
-        fine_rays: as `rays` there.
-        least_gain: least area that is worth a look, m^2.
+        half_side: half the side of the map if no plan is known, metres.
+        short_range: range up to which beams make the floor safe, metres: at this range nothing
+            fits between two beams (Visser et al. 2007 have two such ranges).
+        long_range: range up to which beams show free floor, metres.
+        clearance: least distance from the body to anything solid at a lookout, metres.
+        candidate_spacing: distance between candidate lookouts, metres.
+        rays: number of directions in which the gain of a lookout is estimated.
+        fine_spacing: like `candidate_spacing`, once a coarse lattice finds no lookout, metres.
+        fine_rays: like `rays`, for the fine lattice.
+        least_gain: least area that a lookout must show, m^2.
         least_share: the same as a share of the floor seen of a room, once a coarse lattice finds no
-            place: what is little in a hall is much in a small room.
-        speed: with which ways are counted, m/s.
-        turn_rate: with which turns are counted, rad/s.
-        look_seconds: cost of a look besides the way there.
-        other_room: factor on the cost of a place in another room while a plan is known: a room is
+            lookout: an area that is small in a hall is large in a small room.
+        speed: assumed speed on paths, m/s.
+        turn_rate: assumed yaw rate of turns, rad/s.
+        look_seconds: cost of a lookout besides the path there, seconds.
+        other_room: factor on the cost of a lookout in another room if a plan is known: a room is
             finished before it is left.
-        tries: a cell is given up after so many places from which it ought to have been seen, or
-            that could not be reached; a look that ought to have shown it counts for two.
-        refused_distance: no place nearer to one that could not be reached is tried, metres.
-        recheck: control periods between two questions whether a view is still worth its way.
+        tries: number of tries after which a cell is given up. A lookout that was meant to show the
+            cell, or could not be reached, is one try; one that should have shown it is two.
+        refused_distance: least distance of a lookout from one that could not be reached, metres.
+        recheck: control periods between two checks whether a lookout is still worth its path.
         patience: control periods without moving after which a target is given up.
         long_patience: control periods without getting nearer after which it is given up.
-        retreat: how far a robot goes back the way it came if it stands where two targets in
-            succession could not be reached, metres.
-        settle: control periods that a look takes.
-        person_range: least and largest distance from which a person is looked at, metres.
-        person_looks: control periods of standing before somebody who may be a person.
-        person_tries: places from which somebody is looked at before being left aside.
-        suspicion: probability from which on somebody is looked at from near.
+        retreat: distance that a robot drives back along its path after two targets in succession
+            could not be reached, metres.
+        settle: control periods that an inspection takes.
+        person_range: least and largest distance from which a person is inspected, metres.
+        person_looks: control periods of standing before a possible person.
+        person_tries: poses from which a possible person is inspected before being left out.
+        suspicion: probability from which on a possible person is inspected from near.
     """
 
     spacing: Length = 0.05

@@ -1,4 +1,4 @@
-"""Places to look from: what each would show, what it costs to go there, and the best of them."""
+"""Viewpoints of a search: the floor that each would show, its travel cost, and the best one."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ Circle = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class View:
-    """A pose to look from.
+    """A viewpoint: a pose of the robot, and the cells that its detector should see from there.
 
     Attributes:
         pose: odometry frame.
@@ -58,7 +58,7 @@ class Looker:
 
     @property
     def half_angle(self) -> float:
-        """Angle to each side of its heading within which a look is counted on, radians."""
+        """Angle to each side of the heading within which the detector is relied on, radians."""
         return 0.5 * (1.0 - EDGE) * self.fov
 
     def half_size(self, margin: float) -> tuple[float, float]:
@@ -68,12 +68,12 @@ class Looker:
 
 @dataclass(frozen=True)
 class ViewGrid:
-    """How finely looks are tried out.
+    """The resolution of the search for a viewpoint.
 
     Attributes:
         spacing: between places of the detector, metres.
         rays: directions in which the gain of a place is estimated.
-        room: number of the plan's room that alone is looked at, from inside; None for all.
+        room: number of the only room of the plan that is searched, from inside; None for all.
         thorough: whether a small gain counts in a small room.
     """
 
@@ -84,7 +84,7 @@ class ViewGrid:
 
 
 def wanted_cells(chart: SearchMap) -> Mask:
-    """The cells still to be looked at: of rooms, or without a plan any that may be floor."""
+    """The cells still to be searched: of rooms, or without a plan any that may be floor."""
     left = ~chart.has(LOOKED) & (chart.tries < chart.settings.tries) & ~chart.solid
     known = chart.rooms >= 0
     return np.asarray(left & known if known.any() else left)
@@ -98,13 +98,13 @@ def best_view(
     grid: ViewGrid,
     refused: Sequence[Circle] = (),
 ) -> View | None:
-    """The pose to look from that shows most for its cost; None where nothing is worth it.
+    """The viewpoint with the largest gain for its cost; None if no gain is large enough.
 
     Args:
         chart: the map.
         ways: from where the robot is.
         pose: of the robot.
-        looker: body and detector.
+        looker: body and detector of the robot.
         grid: of places and directions to try.
         refused: around places that could not be reached, or that showed less than expected.
     """
@@ -151,9 +151,9 @@ def _bodies(
 
 
 def _least_gains(chart: SearchMap, eyes: FloatArray, thorough: bool) -> FloatArray:
-    """Least area that is worth a look from some places, m^2, shape (n,).
+    """Smallest area for which a viewpoint is used, m^2, shape (n,).
 
-    A thorough robot asks for less in small rooms.
+    A thorough search accepts a smaller area in small rooms.
     """
     s = chart.settings
     least = np.full(len(eyes), s.least_gain)
@@ -167,7 +167,7 @@ def _least_gains(chart: SearchMap, eyes: FloatArray, thorough: bool) -> FloatArr
 
 
 def shown_from(chart: SearchMap, pose: Pose, looker: Looker) -> Mask:
-    """The cells still to be looked at that a look from a pose of the robot ought to show."""
+    """The cells still to be searched that the detector should see from a pose of the robot."""
     seen, eye = np.zeros(chart.hits.shape, np.bool_), compose(pose, looker.robot.lidar_mount)
     where = chart.grid.frame
     wanted, solid = wanted_cells(chart), chart.solid
@@ -178,14 +178,14 @@ def shown_from(chart: SearchMap, pose: Pose, looker: Looker) -> Mask:
 def place_before(
     chart: SearchMap, ways: Ways, looker: Looker, person: Point, tried: list[Point]
 ) -> Pose | None:
-    """A pose near a person that looks at it and is reached soon; None where there is none.
+    """A pose near a person that faces the person and is reached soon; None if there is none.
 
     Args:
         chart: the map.
         ways: from where the robot is.
         looker: body and detector.
-        person: where somebody may be.
-        tried: places from which it was looked at before.
+        person: place of the suspected person.
+        tried: places from which the robot has observed the person before.
     """
     s, (least, most) = chart.settings, chart.settings.person_range
     cells = np.argwhere(np.isfinite(ways.costs))
@@ -206,7 +206,7 @@ def place_before(
 
 
 def _sees(chart: SearchMap, eye: Point, person: Point) -> bool:
-    """Whether nothing solid stands between, up to the body itself."""
+    """Whether no solid cell lies on the line of sight, except near the person."""
     length = math.dist(eye, person)
     shares = np.arange(0.0, max(length - 0.6, 0.05), 0.05) / length
     points = np.array(eye) + shares[:, None] * (np.array(person) - eye)
@@ -225,7 +225,7 @@ def _eyes(chart: SearchMap, grid: ViewGrid) -> FloatArray:
 def _seconds(
     chart: SearchMap, ways: Ways, grid: ViewGrid, pose: Pose, refused: Sequence[Circle]
 ) -> FloatArray:
-    """Seconds that a look from each cell costs, other rooms dearer; infinite where none is."""
+    """Cost of a viewpoint in each cell, seconds, higher in other rooms; infinite if unreachable."""
     s, current = chart.settings, chart.rooms[chart.grid.cell(pose[:2])]
     elsewhere = (chart.rooms != current) & (current >= 0)
     factor = np.where(elsewhere, s.other_room, 1.0)
@@ -241,7 +241,7 @@ def _seconds(
 
 
 def _window_sums(gains: FloatArray, window: int) -> FloatArray:
-    """Sums of so many neighbouring rays, around the circle, by the first of them."""
+    """Sums over windows of neighbouring rays around the circle, by the first ray of each."""
     twice = np.hstack((np.zeros((len(gains), 1)), gains, gains[:, : window - 1]))
     summed = np.cumsum(twice, axis=1)
     return np.asarray(summed[:, window:] - summed[:, :-window])

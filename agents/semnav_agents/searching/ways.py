@@ -1,4 +1,4 @@
-"""Where the robot can go from where it is."""
+"""Paths of a robot on its search map, from its present place."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ SHRUNK = 0.0, 0.1, 0.2
 
 @dataclass(frozen=True, eq=False)
 class Ways:
-    """Where the robot can go from where it is.
+    """Paths of a robot from its present place, and their costs.
 
     Attributes:
-        costs: of the way to each cell, metres, shape (rows, columns); infinite where none leads.
-        room: distance of each cell from everything solid, metres, same shape.
-        poses: that the whole body reaches; None if that was not asked.
+        costs: of the path to each cell, metres, shape (rows, columns); infinite if there is none.
+        room: distance of each cell from the nearest solid cell, metres, same shape.
+        poses: that the whole body can reach; None if not computed.
     """
 
     costs: FloatArray
@@ -42,7 +42,7 @@ class Ways:
     poses: Reach | None = None
 
     def lead_to(self, x: FloatArray, y: FloatArray, heading: FloatArray) -> Mask:
-        """Whether the whole body gets to poses, as far as that was asked; arrays of one shape."""
+        """Whether the whole body can reach poses, if that was computed; arrays of one shape."""
         if self.poses is None:
             return np.ones(np.broadcast_shapes(x.shape, heading.shape), np.bool_)
         return self.poses.has(x, y, heading)
@@ -51,13 +51,13 @@ class Ways:
 def ways_from(
     chart: SearchMap, place: Point, half_width: float, body: tuple[RobotSpec, Pose] | None = None
 ) -> Ways:
-    """The ways on floor that is safe, or that the plan says is floor.
+    """Compute the paths on floor that is safe or that is floor in the plan.
 
     Args:
         chart: the map.
         place: where the robot is.
         half_width: of the robot, metres.
-        body: and its pose, to ask where the whole of it can get to and turn; takes time.
+        body: the body and its pose, to compute the poses that the whole body can reach; slow.
     """
     spacing, solid = chart.grid.spacing, chart.solid
     room = np.empty(solid.shape)
@@ -76,9 +76,10 @@ def ways_from(
 
 
 def reachable_poses(chart: SearchMap, blocked: Mask, robot: RobotSpec, pose: Pose) -> Reach | None:
-    """The poses that a body gets to; None if it does not even fit where it is.
+    """The poses that a body can reach; None if it does not fit even at its present pose.
 
-    The map's walls are thicker than the true ones: if it does not fit it is taken for smaller.
+    Walls of the map are thicker than the true walls. If the body does not fit, a smaller one is
+    tried.
     """
     cell = chart.grid.cell(pose[:2])
     for thinner in SHRUNK:

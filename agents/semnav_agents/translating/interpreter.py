@@ -1,4 +1,4 @@
-"""Asks where the grammar refuses a text, or where a translator doubts what it takes it for."""
+"""Asks a question if the grammar refuses a text, or if the translator doubts the reading."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ SETTLED = (QUESTION, "a distance is")
 
 @dataclass(frozen=True)
 class DoubtLimits:
-    """From which probabilities on an interpreter acts or asks.
+    """Probabilities from which an interpreter acts or asks.
 
-    They were chosen with networks that had not learned from the author who was measured, see
+    The values were chosen with networks that had not learned from the author who was measured, see
     docs/language.md.
 
     Attributes:
         acting: least probability of the grammar's reading that is acted on without a question.
-        beside: least probability of a translation that is asked about beside the grammar's.
-        asking: least probability of a translation that is asked about where the grammar refuses.
-        refusing: greatest probability that a text is no command at which it is asked about.
+        beside: least probability of a translation that is offered beside the grammar's reading.
+        asking: least probability of a translation that is offered if the grammar refuses the text.
+        refusing: greatest probability of "no command" at which a question is asked.
         choices: the most translations in a question.
     """
 
@@ -53,14 +53,15 @@ class DoubtLimits:
 class LearnedInterpreter:
     """The grammar with a learned translator as a second opinion.
 
-    A translation is never carried out without a question. The robot acts where the grammar has one
-    reading that the translator takes for likely, too. Where it does not, it asks which of both is
-    meant. Where the grammar refuses a text, it asks whether a likely translation is meant.
+    A translation is never carried out without a question. The robot acts if the grammar has one
+    reading and the translator finds this reading likely, too. If the translator does not, the robot
+    asks which of the two is meant. If the grammar refuses a text, the robot asks whether a likely
+    translation is meant.
 
     Attributes:
         language: code, or a loaded language; None to recognise it.
         rooms: names of the rooms of the floor plan; none if they are not known.
-        limits: from which probabilities on it acts or asks.
+        limits: probabilities from which it acts or asks.
         folder: of the translator's files.
     """
 
@@ -94,9 +95,10 @@ class LearnedInterpreter:
         return Interpretation(text, found, spoken, "grammar")
 
     def _is_certain(self, text: str, command: Command) -> bool:
-        """Whether a text is never doubted: a stop, or what the robot itself would say.
+        """Whether a text is never doubted: a stop, or a canonical command.
 
-        A door alone in no more words than it has in canonical ones is that, too: "the door".
+        A door alone counts as canonical if it has no more words than its canonical form: "the
+        door".
         """
         spoken = self._spoken(text)
         said = normalise(text, spoken).text.rstrip(spoken.punctuation)
@@ -112,7 +114,7 @@ class LearnedInterpreter:
     ) -> AmbiguousCommandError | None:
         """The question whether a text means the grammar's reading; None to act on it.
 
-        Readings between which it went without saying are not doubted against each other.
+        Readings that differ only in implicit steps are not doubted against each other.
         """
         translated = self._translated(text)
         if translated is None:
@@ -126,21 +128,21 @@ class LearnedInterpreter:
         return self._asked(text, (command, *others))
 
     def _refusal(self, text: str, error: AmbiguousCommandError) -> CommandError | None:
-        """The refusal of a text with words left out that the translator takes for no command."""
+        """The refusal of a text that has omitted words and is no command for the translator."""
         translated = self._translated(text) if error.question.unread else None
         if translated is None or translated.refusal <= self.limits.refusing:
             return None
         return CommandError(f'"{error.question.unread}" is not understood', text[:200])
 
     def _wider(self, text: str, error: AmbiguousCommandError) -> AmbiguousCommandError | None:
-        """A question with what the translator takes a text for beside the grammar's readings."""
+        """A question with the readings of the grammar and the translations."""
         others = self._others(text, error.readings, 1)
         if not others:
             return None
         return self._asked(text, (*error.readings, *others))
 
     def _question(self, text: str) -> AmbiguousCommandError | None:
-        """What to ask about a text that the grammar refuses; None if nothing."""
+        """The question about a text that the grammar refuses; None without a likely translation."""
         translated = self._translated(text)
         if translated is None or translated.refusal > self.limits.refusing:
             return None
@@ -168,7 +170,7 @@ class LearnedInterpreter:
     def _likely(
         self, translated: TranslatedText, known: Iterable[Command], least: float
     ) -> list[Translation]:
-        """The translations from a probability on that mean something else than what is known."""
+        """The translations of at least a probability that differ in meaning from known commands."""
         meant = [_meaning(command) for command in known]
         found = []
         for each in translated.translations:
@@ -180,7 +182,7 @@ class LearnedInterpreter:
         return found
 
     def _translated(self, text: str) -> TranslatedText | None:
-        """What the translator takes a text for, without rooms that there are not."""
+        """The translations of a text; None if one of them names a room that does not exist."""
         try:
             found = translate(text, self.rooms, load_translator(self.folder))
             for each in found.translations if found is not None else ():
@@ -204,8 +206,8 @@ def understand(
     The arguments are those of `semnav_env.language.parse`.
 
     Raises:
-        AmbiguousCommandError: it is doubtful; `error.readings` are what it may mean.
-        CommandError: it is not understood.
+        AmbiguousCommandError: the text is doubtful; `error.readings` are its possible readings.
+        CommandError: the text is not understood.
     """
     try:
         return LearnedInterpreter(language, rooms).interpret(text).command
@@ -216,7 +218,7 @@ def understand(
 
 
 def _meaning(command: Command) -> object:
-    """What is the same for commands that lead to the same by the rules of docs/commands.md."""
+    """A key that is equal for commands of the same meaning by the rules of docs/commands.md."""
     try:
         return normal(meaning_of(command))
     except TypeError:  # a clause without a step in the notation, such as a search

@@ -1,7 +1,7 @@
-"""Takes the values out of a text: numbers, ordinals, sides and rooms become placeholders.
+"""Replaces the values of a text: numbers, ordinals, sides and rooms become placeholders.
 
-The network sees and says only "value A", "side A" and "room A", each the first of its kind in the
-text. So it cannot make up a number, a side or a room that nobody said.
+The network reads and writes only "value A", "side A" and "room A", each the first of its kind in
+the text. Therefore it cannot invent a number, a side or a room that was not said.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ VALUE_SYMBOLS = tuple(f"value {n}" for n in range(MAX_VALUES))
 SIDE_SYMBOLS = ("side 0", "side 1")
 ROOM_SYMBOLS = tuple(f"room {n}" for n in range(MAX_ROOMS))
 MARK_SYMBOLS = ("", *VALUE_SYMBOLS, *SIDE_SYMBOLS, *ROOM_SYMBOLS)
-"""What the network says for each mark."""
+"""The symbol of the network for each mark."""
 
 _LEFT = re.compile(
     r"left(wards?|most|hand(ed)?)?|links(rum|herum)?|linke[nrsm]?|linker(hand|seits)"
@@ -50,7 +50,7 @@ _RIGHT = re.compile(
 
 @dataclass(frozen=True)
 class MaskedText:
-    """The words of a text with what was taken out of them.
+    """The words of a text, with the values that were replaced.
 
     Attributes:
         words: in small letters; a phrase that is one value or room is one of them.

@@ -1,8 +1,9 @@
-"""The translator's network as it runs: NumPy alone.
+"""The network of the translator, in NumPy alone.
 
 An encoder and a decoder of transformers with the normalisation first (Vaswani et al. 2017; Xiong et
 al. 2020). A word goes in as the mean of vectors of its letter n-grams, which are hashed (Bojanowski
-et al. 2017), and a vector of its mark. So a word that was never seen is near those spelt alike.
+et al. 2017), and a vector of its mark. An unknown word is therefore near words with a similar
+spelling.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ UNLIKELY = 7.0
 
 @dataclass(frozen=True)
 class TranslatorShape(TransformerSettings):
-    """Sizes of the network, whose width is that of a word inside.
+    """Sizes of the network; the width is that of the encoding of a word.
 
     Attributes:
         buckets: rows of the table of n-grams.
@@ -108,7 +109,7 @@ class TranslatorNetwork:
         self.shape, self.tensors = shape, tensors
 
     def encode(self, words: Sequence[str], marks: Sequence[int]) -> Array:
-        """What the words are, one by one and with those around them, shape (n, width)."""
+        """Encode the words, alone and in their context, shape (n, width)."""
         grams = self.tensors["grams"]
         rows = [grams[list(grams_of(word, self.shape.buckets))].mean(axis=0) for word in words]
         x = np.stack(rows) + self.tensors["marks"][list(marks)]
@@ -119,7 +120,7 @@ class TranslatorNetwork:
         return layer_norm(self.tensors, "encoded", x)
 
     def log_shares(self, said: Sequence[int], encoded: Array) -> Array:
-        """Log probability of each symbol behind the symbols that are said, shape (symbols,)."""
+        """Log probability of each symbol after the given symbols, shape (symbols,)."""
         x = self.tensors["symbols"][list(said)] + positions(len(said), self.shape.width)
         for k in range(self.shape.layers):
             x = x + self._attend(f"decode.{k}.self", x, causal=True)
@@ -160,7 +161,7 @@ class TranslatorNetwork:
         return [(tuple(SYMBOLS[k] for k in said[1:-1]), share) for share, said in done]
 
     def log_share_of(self, symbols: Sequence[str], encoded: Array) -> float:
-        """The logarithm of the probability that these symbols, and no more, are said."""
+        """Log probability of exactly these symbols."""
         said, total = [SYMBOLS.index(START)], 0.0
         for symbol in (*symbols, END):
             total += float(self.log_shares(said, encoded)[SYMBOLS.index(symbol)])
@@ -183,7 +184,7 @@ class TranslatorNetwork:
 
 @cache
 def load_translator(folder: Path = BUNDLED_FOLDER / "translator") -> TranslatorNetwork:
-    """The network of a folder, of that which comes with the package by default; read once.
+    """The network of a folder, by default the bundled one; each folder is read once.
 
     Raises:
         ValueError: the files are not those of a translator, or not of this version.

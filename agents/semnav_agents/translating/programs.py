@@ -1,4 +1,4 @@
-"""Commands as the symbols that the network says, with placeholders for values, sides and rooms."""
+"""Commands as symbols of the network, with placeholders for values, sides and rooms."""
 
 from __future__ import annotations
 
@@ -36,10 +36,10 @@ SYMBOLS = (
     *("door", *(place.value for place in Place), *ROOM_SYMBOLS, *Unit),
     *(*SIDE_SYMBOLS, *_OTHER_SIDES, *VALUE_SYMBOLS, *_LITERALS),
 )
-"""What the network can say; a command is such symbols between `START` and `END`.
+"""The symbols of the network; a command is a list of symbols between `START` and `END`.
 
-The bundled weights know them by their places, so none is taken out or moved. A clause with another
-symbol in its form has no symbols for these weights.
+The bundled weights know them by their positions, so none may be removed or moved. A clause with
+another symbol in its form has no symbols for these weights.
 """
 
 

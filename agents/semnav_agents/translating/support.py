@@ -1,4 +1,4 @@
-"""What a text must say before a translation of it is asked about."""
+"""Checks that the words of a text support a translation, before the robot asks about it."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ NEEDED = {
     "back": ("back", "verb return", "verb back", "noun start", "noun way back", "start where"),
     "leave": ("verb leave", "verb exit", "noun room", "noun door", "noun area", "out", "prep out"),
 }
-"""For what a command names, the classes of phrases of which a text must have one."""
+"""For each thing that a command names, the classes of phrases of which a text must have one."""
 
 FORBIDDING = ("not", "or")
-"""Classes of phrases with which nothing is asked about: the translator often takes what is
-forbidden, or one of two things, for what is wanted."""
+"""Classes of phrases that prevent a question: the translator often takes a forbidden thing, or one
+of two things, for the wanted one."""
 
 UNCOVERING = ("beyond", "greeting", "aside")
 """Classes of phrases that do not explain a word for something that no robot can do or see."""
@@ -38,7 +38,7 @@ MIN_THING = 5
 
 @dataclass(frozen=True)
 class TextSupport:
-    """What the words of a text say.
+    """The evidence in the words of a text.
 
     Attributes:
         words: of the text without values and rooms.
@@ -50,7 +50,7 @@ class TextSupport:
 
     @classmethod
     def of(cls, words: Sequence[str]) -> TextSupport:
-        """That of some words, whose language is recognised."""
+        """The command of some words, whose language is recognised."""
         each = tuple(part for word in words for part in word.split(" "))
         return cls(each, lexicon_for(each, recognised(each)))
 
@@ -94,7 +94,7 @@ class TextSupport:
 
 
 def _named(command: Command) -> set[str]:
-    """What a command names, by the keys of `NEEDED`."""
+    """The features that a command names, by the keys of `NEEDED`."""
     found: set[str] = set()
     for clause in command.clauses:
         what = reference_of(clause)

@@ -27,11 +27,11 @@ CANDIDATES = 5
 
 @dataclass(frozen=True)
 class Translation:
-    """A command that a network takes a text for.
+    """A command that may be the meaning of a text.
 
     Attributes:
-        command: which.
-        likeness: its probability as the network sees it, 0 to 1.
+        command: the command.
+        likeness: its probability by the network, 0 to 1.
         unsaid: numbers, sides and rooms of the text that the command does not have.
     """
 
@@ -42,13 +42,13 @@ class Translation:
 
 @dataclass(frozen=True)
 class TranslatedText:
-    """What a network takes a text for.
+    """The likeliest commands of a text.
 
     Attributes:
         translations: commands, the likeliest first.
-        refusal: probability that it is none, 0 to 1.
+        refusal: probability that the text is no command, 0 to 1.
         plain: the text with placeholders.
-        encoded: its words as the network sees them.
+        encoded: its words, encoded by the network.
         network: that translates.
     """
 
@@ -83,11 +83,11 @@ def translate(text: str, rooms: Sequence[str], network: TranslatorNetwork) -> Tr
 
     Args:
         text: in English, German or both.
-        rooms: names of the rooms that there are.
+        rooms: names of the rooms of the floor plan.
         network: that translates.
 
     Raises:
-        CommandError: it has characters that no command has, or is too long to be read at all.
+        CommandError: the text has characters that no command has, or is too long to be read.
     """
     plain = masked(text, rooms)
     if not plain.words or len(plain.words) > MAX_TRANSLATED_WORDS:

@@ -13,7 +13,7 @@ from semnav_features.frames import FloatArray
 def euclidean_clusters(
     points: FloatArray, tolerance: float = 0.10, smallest: int = 5, largest: int = 100
 ) -> list[FloatArray]:
-    """Groups of points that hang together by steps of at most a tolerance.
+    """Groups of points that are connected by steps of at most a tolerance.
 
     Mes 2021 searches with an octree; the k-d tree of SciPy finds the same neighbours.
 

@@ -43,7 +43,7 @@ def crop(
 def crop_mask(
     points: FloatArray, expected: Door, sigma: float, margins: CropBox = CropBox()
 ) -> NDArray[np.bool_]:
-    """Which points are near an expected door, shape (n,).
+    """Mask of the points near an expected door, shape (n,).
 
     Args:
         points: robot frame, metres, shape (n, 3).

@@ -1,4 +1,4 @@
-"""What every detector of doors returns."""
+"""The result of every detector of doors."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ class DetectedDoor:
             the middle of the wall, at the edge of the opening.
         end: the other jamb.
         confidence: how likely both are jambs of the expected door, 0 to 1.
-        covariance: of (start x, start y, end x, end y), square metres, shape (4, 4). It holds what
-            the two share: an error of the line through both moves both.
-        start_seen: whether the start was found; if not, it was put where the width of the
-            expected door puts it.
+        covariance: of (start x, start y, end x, end y), square metres, shape (4, 4). It includes
+            the common error of both jambs: an error of the line through both moves both.
+        start_seen: whether the start was found; if not, it was placed by the width of the
+            expected door.
         end_seen: whether the end was found; one of the two always was.
     """
 
@@ -50,12 +50,12 @@ class DetectedDoor:
         return self.start_seen and self.end_seen
 
     def as_door(self) -> Door:
-        """As a scene holds it, robot frame."""
+        """The door of a scene, robot frame."""
         return Door(self.start, self.end, confidence=self.confidence)
 
 
 def expect_door(door_world: Door, pose: Pose, pose_covariance: FloatArray) -> tuple[Door, float]:
-    """Where a robot should find a door, and how exactly it knows: what the detectors take.
+    """The expected door and its standard deviation, as the detectors need them.
 
     Args:
         door_world: of the floor plan; anything with `start` and `end`.

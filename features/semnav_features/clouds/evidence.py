@@ -1,4 +1,4 @@
-"""What a cloud says of each strip of a wall line: solid, or seen through."""
+"""Evidence of a cloud for each strip of a wall line: solid, or seen through."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Size: TypeAlias = Annotated[float, Bounds(0.001, 100.0, "m")]
 
 @dataclass(frozen=True)
 class StripRules:
-    """How strips of a wall are counted.
+    """Settings for the count of strips of a wall.
 
     Attributes:
         strip: width of a strip, metres.
@@ -62,7 +62,7 @@ class Strips:
     doubt: float
 
     def balance(self, first: Indices, stop: Indices) -> FloatArray:
-        """How solid stretches are: (solid - open) / (solid + open + doubt), from -1 to 1.
+        """Solidity of parts of the wall: (solid - open) / (solid + open + doubt), from -1 to 1.
 
         Args:
             first: strip with which each stretch begins.
@@ -72,7 +72,7 @@ class Strips:
         return difference / (self._sums(self.solid + self.open, first, stop) + self.doubt)
 
     def mean_balance(self, first: Indices, stop: Indices) -> FloatArray:
-        """The mean over the strips of a stretch: 0 for one of which nothing is known."""
+        """The mean over the strips of a part of the wall: 0 if nothing is known of it."""
         each = (self.solid - self.open) / (self.solid + self.open + self.doubt)
         return self._sums(each, first, stop) / (stop - first)
 
@@ -107,7 +107,7 @@ def strips_along(
 
 
 def _cells(points: FloatArray, left: float, count: int, rules: StripRules) -> FloatArray:
-    """How many cells of each strip have points in them."""
+    """Number of cells of each strip that have points in them."""
     levels = round(rules.high / rules.level)
     strip = np.floor((points[:, 0] - left) / rules.strip)
     level = np.floor(points[:, 2] / rules.level)

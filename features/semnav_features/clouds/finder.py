@@ -39,16 +39,16 @@ another door is as likely."""
 class DoorFinder:
     """Finds a door near where it is expected.
 
-    The cloud is cut about the expected door, with a margin for its uncertainty. The wall's line is
-    found in it, then for each strip of the line how solid it is and how much was seen through it.
-    A door is the pair of edges with the most solid wall beside it and the most open space between,
-    of a width that doors have, near what is expected.
+    The cloud is cut around the expected door, with a margin for its uncertainty. First the wall's
+    line is found in it, then for each strip of the line how solid it is and how much was seen
+    through it. A door is the pair of edges with the most solid wall beside it and the most open
+    space between, with a plausible width, near the expected door.
 
     Attributes:
         margins: of the crop.
         search: for the line.
         strips: sizes of the strips.
-        jambs: what counts.
+        jambs: rules for jambs.
         reveal: how the middles of the jambs are found.
         widths: range of the widths of doors.
     """
@@ -92,7 +92,7 @@ class DoorFinder:
     def _measured(
         self, pair: JambPair, line: WallLine, frame: Pose, points: FloatArray, width: float
     ) -> DetectedDoor | None:
-        """The door of a pair, once its jambs have been looked at from the side."""
+        """The door of a pair after the measurement of its jambs from the side."""
         pair_found = settled(pair, width, self.jambs)
         if pair_found is None:
             return None
@@ -106,7 +106,7 @@ class DoorFinder:
         return _placed(pair_found, compose(compose(frame, line.frame), door.frame), door)
 
     def _prior(self, line: WallLine, sigma: float) -> float:
-        """How much a line is like what is expected, in the units of `JambPair.score`."""
+        """Agreement of a line with the expected one, in the units of `JambPair.score`."""
         offset = line.offset**2 / (sigma**2 + LINE_SIGMA**2)
         turn = (line.slope / self.search.turn_sigma) ** 2
         return line.support - self.jambs.prior * (offset + turn)

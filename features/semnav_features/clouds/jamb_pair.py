@@ -15,18 +15,19 @@ from semnav_features.rules import DoorRules
 
 @dataclass(frozen=True)
 class JambRules:
-    """What a pair of edges is that counts as a door, and an edge as a jamb.
+    """Rules for a pair of edges that counts as a door, and for an edge that counts as a jamb.
 
     Attributes:
-        wall: how much of the wall outside an edge is looked at, metres.
-        gap: how much of the opening inside an edge is looked at, metres: more than a reveal hides.
+        wall: length of the wall outside an edge that is evaluated, metres.
+        gap: length of the opening inside an edge that is evaluated, metres: more than a reveal
+            hides.
         solid: least balance of the wall outside a jamb.
         open: largest balance of the opening inside a jamb.
         levels: fewest cells of a jamb, one above the other.
         width_sigma: standard deviation of a door's width about the expected one, metres.
         width_tolerance: largest difference of a width from the expected one, metres: beyond it the
             jamb that shows less does not count as seen.
-        prior: weight of what is expected against what is seen.
+        prior: weight of the expected door relative to the evidence.
     """
 
     wall: Length = 0.10
@@ -48,8 +49,8 @@ class Jamb:
 
     Attributes:
         place: metres along the wall's line.
-        seen: whether it shows as a jamb; if not, the width of the door puts it where it is.
-        step: how much more solid it is outside than inside, at most 2.
+        seen: whether there is evidence for the jamb; if not, it is placed by the width of the door.
+        step: difference of the balance outside and inside, at most 2.
     """
 
     place: float
@@ -65,7 +66,7 @@ class JambPair:
         start: the one with the smaller place.
         end: the other one.
         confidence: 0 to 1.
-        score: how much they are like a door's jambs; at most 6.
+        score: agreement with the jambs of a door, at most 6.
     """
 
     start: Jamb
@@ -82,14 +83,14 @@ class Sides(NamedTuple):
 
     @property
     def step(self) -> FloatArray:
-        """How much more solid it is outside than inside."""
+        """Difference of the balance outside and inside."""
         return self.wall - self.gap
 
 
 def best_pair(
     strips: Strips, width: float, sigma: float, widths: DoorRules, rules: JambRules
 ) -> JambPair | None:
-    """The pair of edges that is most like a door's jambs.
+    """The pair of edges that agrees best with the jambs of a door.
 
     A pair is the better the more solid the wall beside both edges is, the more open the strips
     between them are, and the less its width and its middle differ from what is expected.
@@ -143,7 +144,7 @@ def _jamb(strips: Strips, edge: int, outward: int, sides: Sides, rules: JambRule
 
 
 def settled(pair: JambPair, width: float, rules: JambRules) -> JambPair | None:
-    """The pair with an edge that is no jamb put where the width of the door puts it.
+    """The pair, in which an edge without evidence is placed by the width of the door.
 
     Args:
         pair: edges.

@@ -1,4 +1,4 @@
-"""The doors of a 2D lidar as a detector: the one of a scene that is where a door is expected."""
+"""A detector with a 2D lidar: the door of a scene at the place of an expected door."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ class MesDetector:
     """The pipeline of Mes 2021.
 
     Attributes:
-        margins: of the crop, which was made by hand there.
+        margins: margins of the crop, which was made by hand in the thesis.
         without: steps that are left out. Without lines a cluster's mean is its jamb; without the
             pair the two largest clusters are.
     """

@@ -9,14 +9,14 @@ from semnav_features.frames import FloatArray
 
 
 def remove_outliers(points: FloatArray, neighbours: int = 100, alpha: float = 0.1) -> FloatArray:
-    """The points that are not farther from their neighbours than is usual.
+    """The points whose distance to their neighbours is not unusually large.
 
     A point goes if its mean distance d to its nearest neighbours exceeds
     T = mean(d) + alpha std(d) over all points (Mes 2021, 3.2).
 
     Args:
         points: metres, shape (n, 3).
-        neighbours: how many; all others in a smaller cloud. 100 in Mes 2021, 6.3.2.
+        neighbours: number of neighbours; all others in a smaller cloud. 100 in Mes 2021, 6.3.2.
         alpha: multiplies the standard deviation; 0.1 in Mes 2021, 6.3.2.
 
     Raises:

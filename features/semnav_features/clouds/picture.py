@@ -29,8 +29,7 @@ HEIGHTS = 1.2, 2.1
 def draw_front(ax: Axes, cloud: PointCloud, expected: Door, found: DetectedDoor | None) -> None:
     """Draw the door from the front, as Mes 2021 does in figures 8.1 to 8.4.
 
-    What was found is red (pale where it was put by the width of the door), and where the door was
-    expected purple.
+    Found jambs are red (pale if placed by the width of the door), and the expected door is purple.
 
     Args:
         ax: where to draw.

@@ -18,7 +18,7 @@ _LEAST_AREA = 1e-6
 def plane_inliers(
     points: FloatArray, rng: np.random.Generator, distance: float = 0.10, trials: int = TRIALS
 ) -> NDArray[np.bool_]:
-    """Which points lie on the plane that has the most of them, shape (n,).
+    """Mask of the points on the plane with the most points, shape (n,).
 
     Args:
         points: metres, shape (n, 3).

@@ -1,4 +1,4 @@
-"""A cloud of points, as stereo cameras, depth cameras or a 3D lidar give it."""
+"""A cloud of points from stereo cameras, depth cameras or a 3D lidar."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from numpy.typing import ArrayLike
 from semnav_features.frames import FloatArray, Pose, points_to_parent, relative
 
 HEAD = np.array([0.0, 0.0, 0.5])
-"""Where the sensor of a cloud is if it does not say: above the robot's centre, metres."""
+"""Default position of a cloud's sensor: above the robot's centre, metres."""
 
 
 MAX_POINTS = 60_000
-"""Most points that detectors look at: twice those of SPOT's cameras. Of a larger cloud they take so
-many, or the time that they need would have no bound."""
+"""Largest number of points that detectors use: twice those of SPOT's cameras. It bounds the time of
+a detector for larger clouds."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,8 +27,8 @@ class PointCloud:
 
     Attributes:
         points_robot: shape (n, 3), float64.
-        origins_robot: the camera that saw each point, shape (n, 3); a detector learns from it
-            what lies open between. None: all were seen from `HEAD`.
+        origins_robot: position of the camera that saw each point, shape (n, 3), by which a detector
+            knows the free space between. None: all were seen from `HEAD`.
 
     Raises:
         ValueError: an array of another shape, or of something else than numbers.
@@ -57,7 +57,7 @@ class PointCloud:
         return self.origins_robot
 
     def thinned(self, count: int = MAX_POINTS) -> PointCloud:
-        """At most so many points, evenly chosen in their order; itself if it has no more."""
+        """At most a number of points, evenly chosen in order; the cloud itself if it is smaller."""
         if len(self) <= count:
             return self
         chosen = np.linspace(0, len(self) - 1, count).astype(np.intp)

@@ -16,11 +16,11 @@ from semnav_features.frames import FloatArray, Pose
 
 @dataclass(frozen=True)
 class RevealRules:
-    """How the middle of a jamb across the wall is found.
+    """Settings for the middle of a jamb across the wall.
 
     Attributes:
         strip: half the width of the strip at the edge that holds the reveal, metres.
-        reach: largest distance of the points that are looked at from the wall's line, metres.
+        reach: largest distance of the evaluated points from the wall's line, metres.
         other_wall: distance from the wall's line at which points mean that another wall begins at
             the jamb, on the robot's side, metres: its face is not seen then.
         min_depth: of a frame, metres. Less is seen where the reveal is hidden.
@@ -73,7 +73,7 @@ class DoorLine:
 
 @dataclass(frozen=True)
 class JambMiddle:
-    """Where a jamb is across a wall.
+    """Position of a jamb across a wall.
 
     Attributes:
         left: of its middle from the wall's line, metres to the left.
@@ -87,7 +87,7 @@ class JambMiddle:
 def jamb_middle(
     points: FloatArray, place: float, side: float, rules: RevealRules
 ) -> JambMiddle | None:
-    """Where a jamb is across a wall; None where few of its points are seen, or another wall's.
+    """Position of a jamb across a wall; None if its points are few or those of another wall.
 
     Args:
         points: frame of the wall's line, above the floor, metres, shape (n, 3).
@@ -118,7 +118,7 @@ def door_line(
     Args:
         wall: the wall's line, frame of the expected door.
         jambs: place along the wall's line, and middle, of each jamb.
-        rules: how far to trust each.
+        rules: standard deviations of each.
     """
     slope_sigma = math.hypot(rules.slope, math.sqrt(wall.covariance[1, 1]))
     rows = [

@@ -13,7 +13,7 @@ from semnav_features.frames import FloatArray, Pose
 
 @dataclass(frozen=True)
 class LineSearch:
-    """How the wall line is looked for, in the frame of the expected door.
+    """Limits of the search for the wall line, in the frame of the expected door.
 
     Attributes:
         turn: largest angle to the expected line, radians.
@@ -22,7 +22,7 @@ class LineSearch:
         offset: largest distance from the expected middle, besides three sigmas, metres.
         cell: width of the strips that are counted, metres.
         band: largest distance of the points that the line is fitted to, metres.
-        lines: how many are tried.
+        lines: number of lines that are tried.
     """
 
     turn: float = 0.3

@@ -1,4 +1,4 @@
-"""Explains why candidates were turned down, by the tests that the kernels themselves apply.
+"""Explains why candidates were rejected, by the tests that the kernels themselves apply.
 
 The kernels record no reasons, as that would cost time at every scan. After a scan their candidates
 are still in the working memory; the same predicates are applied to each of them again, so that the
@@ -18,6 +18,6 @@ __all__ = ["Trace", "rejections"]
 
 
 def rejections(trace: Trace) -> tuple[Rejection, ...]:
-    """Every candidate that was turned down, by kind."""
+    """Every rejected candidate, by kind."""
     walls, doors = rejected_walls(trace), rejected_doors(trace)
     return (*walls, *doors, *rejected_corners(trace), *rejected_corridors(trace))

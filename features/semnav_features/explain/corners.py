@@ -1,4 +1,4 @@
-"""Why two walls make no corner."""
+"""Reasons why two walls make no corner."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from semnav_features.kernels.corners import (
 
 
 def rejected_corners(trace: Trace) -> Iterator[Rejection]:
-    """Pairs of the end of a wall and the start of one of the next walls that make no corner."""
+    """Reject pairs of a wall's end and a next wall's start that make no corner."""
     count = len(trace.walls)
     for k in range(count):
         for step in range(1, min(PARTNER_TRIALS, count - 1) + 1):
@@ -37,7 +37,7 @@ def _is_joined(trace: Trace, k: int, partner: int) -> bool:
 
 
 def _reason(trace: Trace, k: int, partner: int, is_next: bool) -> str:
-    """Why two walls make no corner; empty if they are not even neighbours."""
+    """The reason why two walls make no corner; empty if they are not neighbours."""
     a, b, settings = trace.walls[k], trace.walls[partner], trace.settings
     fault, _, _ = full_corner(a, b, trace.record)
     if fault == ENDS_APART:

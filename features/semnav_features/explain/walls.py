@@ -1,4 +1,4 @@
-"""Why a straight piece is no wall."""
+"""Reasons why a straight piece is no wall."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from semnav_features.kernels.walls import PART_OF_ARC, TOO_FEW_BEAMS, TOO_SHORT,
 
 
 def rejected_walls(trace: Trace) -> Iterator[Rejection]:
-    """Straight pieces that are no walls."""
+    """Reject straight pieces that are no walls."""
     settings = trace.settings
     for piece in trace.pieces:
         if trace.beams_per_turn > 0 and trace.scratch.beams[piece["first"]] >= trace.beams_per_turn:

@@ -1,4 +1,4 @@
-"""From many scans to poses and maps: scan matching, odometry without wheels, line maps."""
+"""Poses and maps from many scans: scan matching, scan odometry, line maps."""
 
 from semnav_features.mapping.line_map import LineMap
 from semnav_features.mapping.map_settings import MapSettings

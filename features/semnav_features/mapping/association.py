@@ -1,4 +1,4 @@
-"""Finds the known lines that a new one may be: nearest neighbours among the lines' parameters."""
+"""Data association of lines: finds the known lines that may be the same as a new one."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ _METRES_PER_RADIAN = 2.0
 class LineIndex:
     """A k-d tree over (theta, d), the parameters x cos(theta) + y sin(theta) = d.
 
-    After Weerakoon et al., (10) and section II-E, with d counted from the scanner instead of the
-    map's origin: far from it a small error of the direction is a large one of d. Theta enters as
-    a point on a circle, so that -pi and pi are neighbours.
+    After Weerakoon et al., (10) and section II-E, with d measured from the scanner instead of
+    the map's origin: far from the origin a small error of the direction is a large error of d.
+    Theta enters as a point on a circle, so that -pi and pi are neighbours.
 
     Args:
         lines: the lines to search, rows (x, y, heading), shape (n, 3).
-        names: what to call each in the answer, shape (n,).
-        origin: from where d is counted, metres.
+        names: the name of each line in the answer, shape (n,).
+        origin: point from which d is measured, metres.
     """
 
     def __init__(self, lines: FloatArray, names: NDArray[np.intp], origin: Point) -> None:
@@ -34,7 +34,7 @@ class LineIndex:
         self._tree = cKDTree(self._keys(lines)) if len(lines) else None
 
     def near(self, line: Line, angle: float, offset: float) -> list[int]:
-        """Names of the lines that differ by at most these angles and offsets, or little more."""
+        """Names of the lines that differ by at most an angle and an offset, or little more."""
         if self._tree is None:
             return []
         key = self._keys(np.array([(line.x, line.y, line.heading)]))[0]

@@ -1,4 +1,4 @@
-"""Tells from beams how open a doorway is, and where its jambs are."""
+"""Estimates from beams how open a doorway is, and where its jambs are."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _JAMB_SHARE = 0.2
 """Share of the width at either jamb that does not count for whether the doorway is open."""
 
 _JAMB_MARGIN = 0.25
-"""Length beyond each jamb on which beams are counted, too, metres."""
+"""Length beyond each jamb on which beams are counted as well, metres."""
 
 _JAMB_PASS_SHARE = 1 / 3
 """Share of passing beams at which a jamb is taken to lie.
@@ -24,21 +24,21 @@ On the wall no beam passes. Just inside the jamb, of the beams that go either wa
 ends on the reveal or the leaf; the edge lies halfway."""
 
 _MIN_LOOKS = 10
-"""Scans that must have looked through the doorway before beams say where the jambs are."""
+"""Least number of scans through the doorway before beams determine the jambs."""
 
 _MAX_SHIFT, _MAX_ROTATION = 0.05, math.radians(3.0)
-"""Beams are counted anew when the jambs lie farther off the line than this, metres, or the door is
-rotated by more, radians."""
+"""Largest offset of the jambs from the line, metres, and largest rotation of the door, radians,
+before beams are counted from zero again."""
 
 
 class DoorwayEvidence:
-    """Beams that came to the line through two jambs, counted from a little before to after them.
+    """Counts of the beams that reach the line through two jambs, a little beyond both jambs.
 
     Args:
         ends: both jambs (x1, y1, x2, y2), metres.
 
     Attributes:
-        looks: how many scans looked through it.
+        looks: number of scans that saw through it.
     """
 
     def __init__(self, ends: FloatArray) -> None:
@@ -54,7 +54,7 @@ class DoorwayEvidence:
         self._middle = slice(first - self._cells.base, max(last, first + 1) - self._cells.base)
 
     def observe(self, scan: Scan, pose: Pose) -> None:
-        """Let the beams of a scan say which pieces are open, seen from either side."""
+        """Count the beams of a scan that pass or end in each cell, seen from either side."""
         passes = self._cells.passes[self._middle]
         before = int(passes.sum())
         self._cells.observe(self._line, scan, pose, opening=True)
@@ -62,7 +62,7 @@ class DoorwayEvidence:
 
     @property
     def openness(self) -> float:
-        """Share of the beams that came to the opening that went through it, 0 to 1."""
+        """Share of the beams at the opening that passed through it, 0 to 1."""
         through = int(self._cells.passes[self._middle].sum())
         filled = int(self._cells.hits[self._middle].sum())
         return through / max(through + filled, 1)
@@ -84,7 +84,7 @@ class DoorwayEvidence:
     def bounds(self, ends: FloatArray) -> FloatArray:
         """The jambs moved along the line to where beams begin to pass.
 
-        Many beams tell that better than the ends of walls do, which stop short of the jambs.
+        Many beams determine this better than the ends of walls, which stop short of the jambs.
         """
         if self.looks < _MIN_LOOKS:
             return ends

@@ -12,7 +12,7 @@ from semnav_features.frames import FloatArray
 from semnav_features.scene import ends_of
 
 _MAX_OFFSET = 0.08
-"""A place this near to a longer wall is on it, metres."""
+"""Distance from a longer wall within which a point lies on it, metres."""
 
 _MIN_FACING_COSINE = math.cos(math.radians(35.0))
 """Cosine of the largest angle between two walls that may be one: both must face the same way."""
@@ -21,13 +21,13 @@ _MIN_COVERED_SHARE = 0.7
 """A wall is a duplicate if this share of it lies on longer ones."""
 
 _SAMPLE_SPACING = 0.1
-"""Distance between the places of a wall that are looked at, metres."""
+"""Distance between the tested points of a wall, metres."""
 
 
 def without_duplicates(walls: Sequence[Wall]) -> tuple[Wall, ...]:
     """The walls that do not lie on longer ones, in their order.
 
-    Poses that are a few centimetres off, and corners cut by a single scan, leave short lines along
+    Errors of poses of a few centimetres, and corners cut by a single scan, leave short lines along
     the long ones.
     """
     order = sorted(range(len(walls)), key=lambda k: -walls[k].length)

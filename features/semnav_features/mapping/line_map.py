@@ -19,25 +19,25 @@ from semnav_features.scan import Scan
 from semnav_features.scene import Scene
 
 _CLEANUP_PERIOD = 50
-"""Scans after which walls that proved false are forgotten."""
+"""Period in which false walls are removed, scans."""
 
 
 class LineMap:
     """Walls and doors of many scans, joined in one frame.
 
-    A new wall is compared with the known lines that are its neighbours in (theta, d); where one
-    differs by no more than both uncertainties allow and the two stretches overlap or nearly so,
-    they are fused, weighted by their covariances, and the known one is extended (Weerakoon et
-    al., II-E and figure 5). What is shorter or narrower than a passage never matters for that,
-    because a wall is only where beams ended: every scan says of every piece of the walls around
-    it whether something was there, and pieces that were seen through are no part of the wall.
+    A new wall is compared with the known lines that are its neighbours in (theta, d). If one
+    differs by no more than both uncertainties allow, and the two segments overlap or nearly so,
+    they are fused, weighted by their covariances, and the known one is extended (Weerakoon et al.,
+    II-E and figure 5). This closes no passage, because a wall exists only where beams ended: every
+    scan says for every cell of the walls around it whether a beam ended there, and cells that were
+    seen through are not part of the wall.
 
     Args:
         settings: every limit.
 
     Attributes:
-        scans: how many were added.
-        repeated: how many were left out, because they were taken where the last one was.
+        scans: number of scans that were added.
+        repeated: number of scans that were left out, because the lidar had not moved.
     """
 
     def __init__(self, settings: MapSettings | None = None) -> None:
@@ -49,11 +49,11 @@ class LineMap:
         self._last: Pose | None = None
 
     def add(self, scene: Scene, scan: Scan, pose: Pose) -> None:
-        """Add a scan, unless it was taken where the last one was: that would say nothing new.
+        """Add a scan, unless the lidar has not moved since the last one.
 
         Args:
-            scene: what was extracted from it, in the lidar frame.
-            scan: the scan itself, whose beams say what is there and what is not.
+            scene: the scene of the scan, lidar frame.
+            scan: the scan itself, whose beams show occupied and free space.
             pose: of the lidar in the map's frame.
         """
         if self._last is not None and not self._moved(self._last, pose):
@@ -71,7 +71,7 @@ class LineMap:
 
     @property
     def walls(self) -> tuple[Wall, ...]:
-        """The stretches of wall that are there, in the map's frame."""
+        """The existing parts of the walls, in the map's frame."""
         s = self._settings
         there = [
             wall.as_wall(stretch)
@@ -109,7 +109,7 @@ class LineMap:
                 self._set(len(self._walls), new)
 
     def _join(self, same: list[int], new: MapWall) -> None:
-        """Fuse a new wall with a known one, and that with the others that it turns out to be."""
+        """Fuse a new wall with a known one, and the result with other walls that now match."""
         first, *others = same
         known = self._walls[first]
         assert known is not None
@@ -122,7 +122,7 @@ class LineMap:
         self._set(first, known)
 
     def _set(self, k: int, wall: MapWall | None) -> None:
-        """Keep a wall under number k, or none, and its row of the table up to date."""
+        """Store a wall, or none, under number k, and update its row of the table."""
         if k == len(self._walls):
             self._walls.append(wall)
         if k == len(self._table):
@@ -136,7 +136,7 @@ class LineMap:
         return math.hypot(x, y) >= s.least_move or abs(heading_change) >= s.least_turn
 
     def _tidy(self) -> None:
-        """Forget what proved false: seen long ago and never again, or seen through all along."""
+        """Remove false walls: seen long ago and never again, or seen through everywhere."""
         fewest = self._settings.wall_hits
         kept = [
             wall
@@ -150,7 +150,7 @@ class LineMap:
         self._table[len(kept) :] = np.nan
 
     def _within_reach(self, point: Point) -> list[int]:
-        """Numbers of the walls some of which is near enough for its beams to count."""
+        """Numbers of the walls of which a part is near enough for beams to count."""
         x, y, heading, first, last = self._table.T
         c, s = np.cos(heading), np.sin(heading)
         along = c * (point[0] - x) + s * (point[1] - y)
@@ -159,7 +159,7 @@ class LineMap:
         return [int(k) for k in np.flatnonzero(off < MAX_BEAM_LENGTH)]
 
     def _candidates(self, new: MapWall, index: LineIndex) -> list[int]:
-        """Numbers of the walls that may be one with a new one, by direction and stretch."""
+        """Numbers of the walls that may be the same as a new one, by direction and extent."""
         s = self._settings
         angle = s.angle_tolerance + s.confidence * math.sqrt(new.line.angle_variance + s.angle**2)
         offset = self._tolerance(2.0 * new.line.offset_variance) + 2.0 * s.wall_reach * angle
@@ -171,7 +171,7 @@ class LineMap:
         return [int(k) for k in names[apart <= s.gap]]
 
     def _is_one(self, k: int, new: MapWall) -> bool:
-        """Whether known wall `k` and a new one are one: same direction, same line, no gap."""
+        """Whether known wall `k` and a new one are the same: same direction, same line, no gap."""
         s, known = self._settings, self._walls[k]
         if known is None:
             return False
@@ -189,7 +189,7 @@ class LineMap:
         return abs(new.line.across(point)) < self._tolerance(variance)
 
     def _tolerance(self, variance: float) -> float:
-        """How far apart two estimates of one line may lie, metres.
+        """Largest distance between two estimates of one line, metres.
 
         The scans of one pass share an error of their poses that does not average out.
         """
@@ -202,6 +202,6 @@ def _place(line: Line) -> Pose:
 
 
 def _distance(wall: Wall) -> float:
-    """From the origin of the wall's frame to the nearest point of the wall, metres."""
+    """Distance from the origin of the wall's frame to the nearest point of the wall, metres."""
     x, y = to_local((*wall.start, wall.heading), (0.0, 0.0))
     return math.hypot(max(-x, 0.0, x - wall.length), y)

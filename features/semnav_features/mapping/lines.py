@@ -31,12 +31,12 @@ class Line:
     angle_variance: float
 
     def along(self, point: Point) -> float:
-        """How far along the line a point lies from (x, y), metres."""
+        """Position of a point along the line, from (x, y), metres."""
         dx, dy = point[0] - self.x, point[1] - self.y
         return math.cos(self.heading) * dx + math.sin(self.heading) * dy
 
     def across(self, point: Point) -> float:
-        """How far to the left of the line a point lies, metres."""
+        """Distance of a point to the left of the line, metres."""
         dx, dy = point[0] - self.x, point[1] - self.y
         return math.cos(self.heading) * dy - math.sin(self.heading) * dx
 
@@ -46,7 +46,7 @@ class Line:
         return self.x + along * c, self.y + along * s
 
     def variance(self, along: float) -> float:
-        """Of its place across itself, that far along, m^2."""
+        """Variance of the line across itself at a position along it, m^2."""
         return self.offset_variance + along * along * self.angle_variance
 
 
@@ -54,8 +54,8 @@ def line_of(wall: Wall, frame: Pose, position: float = 0.0, angle: float = 0.0) 
     """The line of a wall, placed in the parent of the wall's frame.
 
     Args:
-        wall: in `frame`; where it does not say how well its line is known, as walls of a plan
-            do not, that follows from its residual, beams and length.
+        wall: a wall in `frame`; if it has no standard deviations, like walls of a plan, they follow
+            from its residual, beams and length.
         frame: pose of its frame.
         position: standard deviation of the frame's place, metres.
         angle: standard deviation of its heading, radians.
@@ -107,5 +107,5 @@ def fuse(a: Line, b: Line) -> Line:
 
 
 def gap(a: tuple[float, float], b: tuple[float, float]) -> float:
-    """How far two stretches (first, last) along one line are apart; negative if they overlap."""
+    """Gap between two segments (first, last) along one line; negative if they overlap."""
     return max(a[0], b[0]) - min(a[1], b[1])

@@ -20,7 +20,7 @@ class MapDoor:
         seen: both jambs of every sighting, rows (x1, y1, x2, y2) in metres, in one direction.
         belief: sum of the confidences of the sightings.
         ends: the median of the sightings.
-        passage: what beams say of its opening.
+        passage: evidence of beams for its opening.
     """
 
     seen: list[FloatArray]
@@ -39,7 +39,7 @@ class MapDoor:
         self._agree()
 
     def absorb(self, other: MapDoor) -> None:
-        """Take over the sightings of another door, and its beam counts if they are more."""
+        """Take over the sightings of another door, and its beam counts if they are larger."""
         self.seen += map(self._alike, other.seen)
         self.belief += other.belief
         if other.passage.looks > self.passage.looks:
@@ -47,18 +47,18 @@ class MapDoor:
         self._agree()
 
     def distance(self, door: FloatArray) -> float:
-        """How far the jambs of a sighting are off, at most, metres."""
+        """Larger distance of a jamb of a sighting from this door's jamb, metres."""
         off = self._alike(door) - self.ends
         return max(math.hypot(off[0], off[1]), math.hypot(off[2], off[3]))
 
     def apart(self, other: MapDoor) -> float:
-        """Between the middles of two doors, metres."""
+        """Distance between the middles of two doors, metres."""
         off = (self.ends[:2] + self.ends[2:] - other.ends[:2] - other.ends[2:]) / 2
         return math.hypot(off[0], off[1])
 
     @property
     def share(self) -> float:
-        """Mean confidence over the scans that looked through it, 0 where one missed it."""
+        """Mean confidence over the scans that saw through it, 0 for a scan that found no door."""
         return self.belief / max(self.passage.looks, len(self.seen))
 
     def as_door(self) -> Door:
@@ -73,7 +73,7 @@ class MapDoor:
         return door if along >= 0.0 else door[[2, 3, 0, 1]]
 
     def _agree(self) -> None:
-        """Take the median of the sightings; count beams anew if that has moved the door."""
+        """Take the median of the sightings; restart the beam counts if this moved the door."""
         self.ends = np.median(self.seen, axis=0)
         if not self.passage.lies_along(self.ends):
             looks = self.passage.looks

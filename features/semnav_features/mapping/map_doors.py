@@ -1,4 +1,4 @@
-"""The doors of a line map: joins sightings, and says which doors count."""
+"""The doors of a line map: joins sightings, and decides which doors count."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class MapDoors:
         self._doors: list[MapDoor] = []
 
     def add(self, doors: Sequence[Door], scan: Scan, pose: Pose) -> None:
-        """Add the doors of a scan's scene (lidar frame), and let its beams speak of the others."""
+        """Add the doors of a scan's scene (lidar frame), and count its beams for the others."""
         reach = self._settings.door_reach
         for door in doors:
             if math.hypot(*door.midpoint) < reach:
@@ -38,7 +38,7 @@ class MapDoors:
 
     @property
     def believed(self) -> tuple[Door, ...]:
-        """The doors that count, in the order first seen; of two in one place the more certain."""
+        """The doors that count, in the order first seen; of two in one place the surer one."""
         kept: list[MapDoor] = []
         for door in sorted(filter(self._counts, self._doors), key=lambda door: -door.belief):
             if all(door.apart(other) > self._settings.door_apart for other in kept):

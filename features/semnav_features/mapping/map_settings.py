@@ -22,8 +22,8 @@ class MapSettings:
             and the next two tolerances.
         angle_tolerance: of a line's direction, as walls are not quite straight, radians.
         offset_tolerance: of its offset, as walls are not quite flat, metres.
-        gap: stretches of one line that are farther apart stay two walls, since nothing is known
-            of what is between them, metres. Narrower than anything that a robot passes.
+        gap: segments of one line that are farther apart than this stay two walls, because nothing
+            is known of the space between, metres. It is narrower than a robot's passage.
         wall_hits: a piece of wall counts when this many scans showed it, and if also ...
         wall_share: ... this share of the scans whose beams ended on it showed it as part of a
             wall: beams also end on lines that only cut corners.

@@ -1,4 +1,4 @@
-"""A wall of a map: a line that was seen many times, and which pieces of it are solid."""
+"""A wall of a map: a line that was seen many times, with its solid cells."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from semnav_features.mapping.lines import Line, fuse
 from semnav_features.scan import Scan
 
 Stretch = tuple[float, float]
-"""From where to where along a line, metres."""
+"""Begin and end of a segment along a line, metres."""
 
 
 @dataclass(slots=True, eq=False)
@@ -23,10 +23,10 @@ class MapWall:
 
     Attributes:
         line: its line; places along it are counted from its point.
-        extent: how far it has been seen to reach along its line.
+        extent: seen extent along its line.
         born: number of the scan that showed it first.
-        sightings: in how many scans.
-        cells: what beams say of it, piece by piece.
+        sightings: number of scans that showed it.
+        cells: evidence of beams, cell by cell.
     """
 
     line: Line
@@ -48,7 +48,7 @@ class MapWall:
         return min(ends), max(ends)
 
     def absorb(self, other: MapWall) -> None:
-        """Become the one wall that both are: the lines fused, the extents joined.
+        """Join another wall: fuse the lines and join the extents.
 
         In all four cases of Weerakoon et al., figure 5: the other lies inside this one and adds
         nothing to its length, extends its start, extends its end, or extends both.
@@ -72,11 +72,11 @@ class MapWall:
         self.sightings += other.sightings
 
     def observe(self, scan: Scan, pose: Pose) -> None:
-        """Let the beams of a scan say which pieces of the wall are there."""
+        """Count the beams of a scan that end on or pass through each cell of the wall."""
         self.cells.observe(self.line, scan, pose)
 
     def solid(self, fewest: int, share: float, widest_gap: float) -> list[Stretch]:
-        """The stretches of the wall that are really there.
+        """The existing segments of the wall.
 
         Args:
             fewest: least number of scans in which a piece was there.
@@ -120,6 +120,6 @@ class MapWall:
 
 
 def _runs(mask: np.ndarray) -> list[tuple[int, int]]:
-    """Where runs of True start and stop."""
+    """Begin and end of each run of True."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], mask.view(np.int8), [0]))))
     return [(int(a), int(b)) for a, b in edges.reshape(-1, 2)]

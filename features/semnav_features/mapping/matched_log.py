@@ -9,8 +9,8 @@ from semnav_features.mapping.odometry import ScanOdometry
 from semnav_features.readers import LogRecord
 
 MAX_LOST, MAX_LOST_SHARE = 2, 0.05
-"""Number and share of scans without a match beyond which the poses are not to be trusted: a scan
-without one counts as moved as guessed, and all that follow err by as much. Of the logs in
+"""Number and share of scans without a match beyond which the poses are unreliable: for a scan
+without a match the guess is taken, and its error adds to all later poses. Of the logs in
 docs/mapping.md one loses more, and drifts five times as far as the others."""
 
 
@@ -21,8 +21,8 @@ def matched(
 
     Args:
         records: of a log, in order.
-        odometry: by which scans are matched, before its first.
-        mount: pose of the lidar on the robot, to which wheel odometry belongs.
+        odometry: the scan odometry, without a scan so far.
+        mount: pose of the lidar on the robot, whose motion wheel odometry gives.
     """
     wheels: Pose | None = None
     for record in records:
@@ -33,7 +33,7 @@ def matched(
 
 
 def loss_of(odometry: ScanOdometry, scans: int) -> str:
-    """Why poses of so many scans are not to be trusted, and what helps; empty if they are."""
+    """The reason why poses are unreliable, with advice; empty if they are reliable."""
     if odometry.lost <= max(MAX_LOST, MAX_LOST_SHARE * scans):
         return ""
     return (

@@ -30,22 +30,22 @@ DEFAULT_MATCH_SETTINGS = MatchSettings()
 
 
 class MatchError(ValueError):
-    """Two scans that cannot be matched; says why."""
+    """Two scans cannot be matched; the message says why."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Match:
-    """How a scan lies on a reference scan.
+    """The pose of a scan relative to a reference scan.
 
     Attributes:
         pose: of the scan in the frame of the reference, metres and radians.
         covariance: of `pose`, shape (3, 3), metres and radians. Along an undetermined direction
             it is that of the first guess.
         undetermined: the direction, a unit vector in the frame of the reference, along which the
-            scans do not determine the place, as in a corridor without features; None if they do.
+            scans do not determine the position, as in a corridor without features; or None.
         residual: root mean square distance of the paired points to their lines, metres.
         inliers: share of the scan's points that are paired in the end, 0 to 1.
-        iterations: how many were made.
+        iterations: number of iterations.
         converged: whether the last step was below the tolerances.
     """
 
@@ -71,10 +71,11 @@ def match_scans(
         sum w_i (n_i . (R p_i + t - q_i))^2,
 
     the distances to the lines through the neighbours of q_i (Censi 2008, eq. (2); here by a
-    Gauss-Newton step, which is as good as his closed form because it is repeated), and so on until
-    it stays. The weight is the inverse of the variance of range noise of both scans across the
-    line. With `settings.point_to_point` the step is Procrustes' closed form instead: the rigid
-    motion with the least sum of |R p_i + t - q_i|^2 (Crosilla 2003, in the plane).
+    Gauss-Newton step, which is as good as his closed form because it is repeated), and both steps
+    are repeated until it converges. The weight is the inverse of the variance of range noise of
+    both scans across the line. With `settings.point_to_point` the step is Procrustes' closed form
+    instead: the rigid motion with the least sum of |R p_i + t - q_i|^2 (Crosilla 2003, in the
+    plane).
 
     The covariance is the inverse of sum w_i J_i^T J_i, J_i = (n_i, R p_i x n_i), scaled up by the
     weighted mean squared residual where that exceeds one, the first guess counting as one more
@@ -87,7 +88,7 @@ def match_scans(
         settings: every limit.
 
     Raises:
-        MatchError: too few pairs to tell a pose.
+        MatchError: too few pairs to determine a pose.
         ValueError: a guess that is not finite.
     """
     if not all(map(math.isfinite, guess)):
@@ -99,7 +100,7 @@ def match_scans(
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReferenceLines:
-    """A scan made ready for matching: worth keeping where one is matched with many.
+    """A scan prepared for matching; keep it to match it with many others.
 
     Attributes:
         table: shape (`ROWS`, n), see `semnav_features.mapping.surface`.
@@ -129,7 +130,7 @@ def match_surfaces(
     guess: Pose = ORIGIN,
     settings: MatchSettings = DEFAULT_MATCH_SETTINGS,
 ) -> Match:
-    """`match_scans` for scans that were made ready before; raises the same."""
+    """Match scans that were prepared before; see `match_scans`."""
     pose, information, report = (
         np.array(guess, dtype=np.float64),
         np.empty((3, 3)),
@@ -166,7 +167,7 @@ def match_surfaces(
 
 
 def _covariance(information: FloatArray, weak: Point | None, settings: MatchSettings) -> FloatArray:
-    """The inverse of what pairs and guess say together; along `weak` the pairs say nothing."""
+    """The inverse of the information of pairs and guess; along `weak` the pairs have none."""
     if weak is not None:
         information = without_place(information, weak)
     values, vectors = np.linalg.eigh(information)
@@ -176,10 +177,10 @@ def _covariance(information: FloatArray, weak: Point | None, settings: MatchSett
 
 
 def without_place(information: FloatArray, direction: Point) -> FloatArray:
-    """The information without what it says of the place along a direction, whatever the heading.
+    """The information without its part on the position along a direction, for any heading.
 
-    With the blocks A of the place, b between place and heading, and c of the heading, the place
-    is known by S = A - b b^T / c, the heading being free. If S w = l w, then
+    With the blocks A of the position, b between position and heading, and c of the heading, the
+    information on the position for an unknown heading is S = A - b b^T / c. If S w = l w, then
 
         I - l (w, 0) (w, 0)^T
 

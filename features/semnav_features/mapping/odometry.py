@@ -21,14 +21,15 @@ from semnav_features.scan import Scan
 
 @dataclass(frozen=True)
 class KeyframeRule:
-    """When a scan becomes the next keyframe.
+    """Rules for making a scan the next keyframe.
 
     Attributes:
-        distance: from the last keyframe from which on a scan becomes one, metres.
+        distance: distance from the last keyframe at which a scan becomes one, metres.
         angle: the same for the heading change, radians.
-        inliers: it also becomes one if a smaller share of its points lies on the keyframe.
-        trusted: with a smaller share than this a scan counts as not matched.
-        lost: of this many scans in a row that were not matched the last becomes a keyframe.
+        inliers: a scan also becomes a keyframe if a smaller share of its points than this lies on
+            the last one.
+        trusted: least share of points on the keyframe for a valid match.
+        lost: number of successive scans without a match after which the last becomes a keyframe.
     """
 
     distance: float = 0.5
@@ -39,14 +40,14 @@ class KeyframeRule:
 
 
 class _Placed(NamedTuple):
-    """A scan and where it was taken."""
+    """A scan and its pose."""
 
     surface: ReferenceLines
     pose: Pose
 
 
 class ScanOdometry:
-    """Where the lidar is in the frame of its first scan, from scans alone.
+    """The pose of the lidar in the frame of its first scan, from scans alone.
 
     Every scan is matched with the last keyframe rather than with its predecessor, so that errors
     add up only from keyframe to keyframe; where the keyframe shows too little of what the scan
@@ -60,8 +61,8 @@ class ScanOdometry:
     Attributes:
         pose: of the last scan in the frame of the first; (0, 0, 0) before any.
         match: of the last scan with its keyframe; None where there is none.
-        keyframes: how many there were.
-        lost: how many scans could not be matched; they are taken to have moved as guessed.
+        keyframes: number of keyframes.
+        lost: number of scans without a match; for these the guess is taken.
     """
 
     def __init__(
@@ -81,11 +82,11 @@ class ScanOdometry:
         self._lost_in_a_row = 0
 
     def update(self, scan: Scan, moved: Pose | None = None) -> Pose:
-        """Take the next scan, and say where it was taken.
+        """Process the next scan, and return its pose.
 
         Args:
             scan: the scan.
-            moved: a guess of its pose in the frame of the scan before, as wheels would give it.
+            moved: a guess of its pose in the frame of the scan before, such as from wheel odometry.
 
         Returns:
             Its pose in the frame of the first scan.
@@ -104,7 +105,7 @@ class ScanOdometry:
         return self.pose
 
     def _found(self, surface: ReferenceLines, guess: Pose) -> Pose | None:
-        """Where a scan was taken, matched with the keyframe or, failing that, the one before it."""
+        """The pose of a scan, matched with the keyframe or else with the scan before it."""
         assert self._keyframe is not None
         assert self._last is not None
         self.match = self._match(self._keyframe, surface, guess)

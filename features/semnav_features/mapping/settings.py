@@ -17,9 +17,9 @@ class MatchSettings:
     """Limits of `match_scans`. Lengths in metres, angles in radians.
 
     Attributes:
-        sigma: standard deviation of a range, metres; None to tell it from each scan.
-        roughness: standard deviation of how far a surface is from flat, metres; keeps grazing
-            beams, whose noise runs along the wall, from counting for too much.
+        sigma: standard deviation of a range, metres; None to estimate it from each scan.
+        roughness: standard deviation of a surface from a plane, metres; it limits the weight of
+            grazing beams, whose noise is along the wall.
         window: largest number of neighbours on either side of a point to which its line is fitted.
         max_distance: points are paired up to this distance at first, metres.
         outliers: a pair counts while its residual is below this multiple of the root mean square

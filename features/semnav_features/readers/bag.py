@@ -23,7 +23,7 @@ class Bag(Protocol):
     counts: Counter[Channel]
 
     def messages(self, channels: Collection[Channel]) -> Iterator[Message]:
-        """The messages of some channels, in the order of time.
+        """Yield the messages of some channels, in the order of time.
 
         Raises:
             DamageError: the bag ends too early or is damaged.

@@ -1,9 +1,9 @@
-"""Logs of BreezySLAM's examples: a Hokuyo URG-04LX, one sweep a line.
+"""Logs of BreezySLAM's examples: a Hokuyo URG-04LX, one scan in each line.
 
 A line is whole numbers: the time in microseconds, 23 fields of the robot (its wheels' counts among
-them, not used here), 682 ranges in millimetres, 0 for no return, and at most one number more. The
-scanner takes 1024 steps a turn, of which it measures 44 to 725; step 384 looks forward (Hokuyo,
-URG-04LX specifications).
+them, not used here), 682 ranges in millimetres, 0 for a missing return, and at most one more
+number. The scanner takes 1024 steps a turn, of which it measures 44 to 725; step 384 looks forward
+(Hokuyo, URG-04LX specifications).
 """
 
 from __future__ import annotations

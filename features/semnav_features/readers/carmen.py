@@ -32,11 +32,11 @@ class CarmenLog(TextLog):
     """An open CARMEN log; see `ScanLog`.
 
     FLASER and ROBOTLASER1 lines give records, ODOM lines the odometry of those that follow.
-    Other messages are passed over silently, lines that cannot be read are counted in `bad`.
+    Other messages are ignored, and lines that cannot be read are counted in `bad`.
 
     Args:
         text: the file.
-        geometry: what the lines leave unsaid.
+        geometry: values that the lines do not contain.
     """
 
     expected = "FLASER or ROBOTLASER1 lines"

@@ -1,4 +1,4 @@
-"""What a bag carries before it is decoded."""
+"""Channels and raw messages of a bag, before decoding."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeAlias
 
 
 class Channel(NamedTuple):
-    """One kind of messages of a bag.
+    """A channel of a bag, with messages of one type.
 
     Attributes:
         topic: its name, such as /scan.

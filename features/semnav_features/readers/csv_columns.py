@@ -1,4 +1,4 @@
-"""The rows of a CSV log, and what their columns mean."""
+"""The rows of a CSV log, and the meaning of their columns."""
 
 from __future__ import annotations
 
@@ -41,13 +41,13 @@ _BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
 @dataclass(frozen=True)
 class Columns:
-    """Where to find what in the rows of a CSV log.
+    """The meaning of the columns of a CSV log.
 
     Attributes:
-        separator: what stands between the cells of all rows.
-        count: how many columns there are.
+        separator: separator of the cells of all rows.
+        count: number of columns.
         ranges: columns of the ranges, in order, shape (beams,).
-        places: column of everything else, by its meaning.
+        places: column of each other value, by its meaning.
     """
 
     separator: bytes
@@ -108,7 +108,7 @@ class Columns:
         return row
 
     def number(self, row: FloatArray, meaning: str) -> float | None:
-        """What a row says of `meaning`; None if it has no such column."""
+        """The value of a row for `meaning`; None if it has no such column."""
         return float(row[self.places[meaning]]) if meaning in self.places else None
 
     def stamp(self, row: FloatArray) -> float | None:
@@ -141,7 +141,7 @@ def is_passed_over(line: bytes) -> bool:
 
 
 def separator_of(line: bytes) -> bytes:
-    """What separates the cells of a line: commas, semicolons or tabs, whichever there are more of.
+    """The separator of the cells of a line: the most frequent of commas, semicolons and tabs.
 
     Commas in numbers, as in `2,51;2,50`, separate nothing.
     """

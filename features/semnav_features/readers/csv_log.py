@@ -1,4 +1,4 @@
-"""Logs as comma-separated values: one scan a row."""
+"""Logs as comma-separated values, with one scan in each row."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class CsvLog(TextLog):
 
     Args:
         text: the file.
-        geometry: what the file leaves unsaid.
+        geometry: values that the file does not contain.
     """
 
     expected = "rows of ranges, separated by commas"

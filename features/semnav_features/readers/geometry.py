@@ -1,4 +1,4 @@
-"""What a log leaves unsaid of its scans, and the check that every scan of a log passes."""
+"""Values of scans that a log does not contain, and the check that every scan of a log passes."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ _FARTHEST = 4.0 * math.pi
 Direction: TypeAlias = Annotated[float, Bounds(-_FARTHEST, _FARTHEST, "rad")]
 
 _LATEST = 1e11
-"""What is larger is no time in seconds: a date after the year 5000."""
+"""Largest accepted time in seconds: a date after the year 5000."""
 
 _NANOSECONDS = (1e18, 1e19)
 """Numbers of 19 digits: nanoseconds since 1970, on a date from 2001 to 2286."""
 
 _WIDEST = 3.0 * math.pi
-"""A turn and a half: some scanners repeat beams of the circle; radians."""
+"""Largest angle of a scan, radians: a turn and a half, because some scanners repeat beams."""
 
 
 @dataclass(frozen=True, slots=True)
 class Geometry:
-    """What a log leaves unsaid.
+    """Values of scans that a log does not contain.
 
     Attributes:
-        range_max: ranges at or beyond it are no returns, metres; a smaller limit in the log
+        range_max: ranges at or beyond it are missing returns, metres; a smaller limit in the log
             itself counts. SICK's scanners send 81.91 and some logs 50.
         beam_spacing: degrees between the beams of CARMEN's FLASER lines and BreezySLAM's logs,
-            whose middle beam looks forward; None to tell it from the number of beams.
+            whose middle beam points forward; None to derive it from the number of beams.
         angle_min: direction of the first beam of CSV and npz logs, radians; None to take the
             log's own.
         angle_increment: angle between their beams, radians, negative if they run clockwise;
@@ -100,7 +100,7 @@ def stamp_in_seconds(stamp: float) -> float:
 
 
 def _fault_of_angles(start: float, step: float, swept: float) -> str:
-    """What is wrong with the angles of a scan, radians."""
+    """The error in the angles of a scan, which are in radians."""
     fault = "angles that do not fit a sweep of one turn"
     if abs(start) <= _FARTHEST and _WIDEST < swept <= 360.0:
         return f"{fault}: angle_increment={step:g} looks like degrees; give radians"

@@ -1,4 +1,4 @@
-"""What every reader of scan logs gives: records, and clear errors."""
+"""Records and errors of all readers of scan logs."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from semnav_features.scan import Scan
 
 
 class LogError(ValueError):
-    """A file that cannot be read as a log of scans; says why and what would do."""
+    """A file cannot be read as a log of scans; the message says why and what can be read."""
 
 
 class TruncatedLogError(LogError):
-    """A log that ends too early or is damaged; what could be read of it was yielded."""
+    """A log is truncated or damaged; its readable records were yielded."""
 
 
 class BadRecordError(ValueError):
@@ -27,19 +27,19 @@ class BadRecordError(ValueError):
 
 
 class DamageError(Exception):
-    """The data of a log cannot be read any farther."""
+    """The data of a log cannot be read any further."""
 
 
 @dataclass(frozen=True, slots=True)
 class LogRecord:
-    """One scan of a log, and where it was taken.
+    """One scan of a log, with its pose.
 
     Attributes:
         scan: the scan, in the frame of the lidar.
         pose: of the lidar in the log's frame, metres and radians; the corrected pose where the
             log is a corrected one, None where it has none.
         odometry: of the robot as the wheels count it; None before the log's first.
-        line: where in the log, from 1: the line of a text, the row of an array, the number of
+        line: number in the log, from 1: the line of a text, the row of an array, the number of
             the message on its topic.
     """
 
@@ -59,8 +59,8 @@ class ScanLog(Protocol):
 
     Attributes:
         unit: what the log consists of and `LogRecord.line` counts: line, row or message.
-        scans: how many records were yielded so far.
-        bad: how many units were passed over so far, by reason.
+        scans: number of records yielded so far.
+        bad: number of units skipped so far, by reason.
         first_bad: the number of the first unit of each reason.
     """
 
@@ -71,7 +71,7 @@ class ScanLog(Protocol):
 
     @property
     def fraction(self) -> float | None:
-        """How much of the log has been read, 0 to 1; None where its size is unknown."""
+        """Share of the log that has been read, 0 to 1; None if its size is unknown."""
 
     def __iter__(self) -> Iterator[LogRecord]:
         """The records that are left, in the order of the log."""
@@ -91,7 +91,7 @@ class ScanLog(Protocol):
 
 
 class LogReader(ABC):
-    """What the readers of all formats share; a reader says how to get at the records.
+    """Base class of the readers of all formats; a reader defines how records are read.
 
     Iterating raises `LogError` if there is no scan, and `TruncatedLogError` after the last
     readable record if the data are damaged or end too early.
@@ -99,7 +99,7 @@ class LogReader(ABC):
 
     unit: ClassVar[str] = "line"
     expected: ClassVar[str]
-    """What a log of this format holds, for the error where there is none of it."""
+    """Contents of a log of this format, for the error about a log without them."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -110,7 +110,7 @@ class LogReader(ABC):
     @property
     @abstractmethod
     def fraction(self) -> float | None:
-        """How much of the log has been read; see `ScanLog`."""
+        """Share of the log that has been read; see `ScanLog`."""
 
     @abstractmethod
     def records(self) -> Iterator[LogRecord]:
@@ -121,7 +121,7 @@ class LogReader(ABC):
         """Close the file."""
 
     def count_bad(self, reason: str, number: int) -> None:
-        """Note that a unit of the log was passed over."""
+        """Note that a unit of the log was skipped."""
         self.bad[reason] += 1
         self.first_bad.setdefault(reason, number)
 

@@ -1,4 +1,4 @@
-"""What looks wrong in a log as a whole, though each of its scans can be read."""
+"""Finds errors of a whole log, even if each of its scans can be read."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from semnav_features.readers.stamp_check import StampCheck
 from semnav_features.scan import typical_length
 
 PoseSource: TypeAlias = Literal["pose", "odometry"]
-"""A field of `LogRecord` that says where a scan was taken."""
+"""A field of `LogRecord` with the pose of a scan."""
 
 
 class LogCheck:
-    """Watches the records of a log as they pass.
+    """Checks the records of a log while they are read.
 
         check = LogCheck(log.unit)
         for record in check.watched(log):
@@ -27,7 +27,7 @@ class LogCheck:
 
     Args:
         unit: what `LogRecord.line` counts.
-        uses: where the poses come from that are used; they alone are watched.
+        uses: sources of the poses that are used; only these are checked.
     """
 
     def __init__(self, unit: str, uses: Iterable[PoseSource] = ("pose", "odometry")) -> None:
@@ -44,7 +44,7 @@ class LogCheck:
             yield record
 
     def look(self, record: LogRecord) -> None:
-        """Take in the next record."""
+        """Check the next record."""
         self._look_at_ranges(record)
         self._stamps.look(record)
         for source, check in self._poses.items():
@@ -52,7 +52,7 @@ class LogCheck:
                 check.look(pose, record)
 
     def notes(self) -> list[str]:
-        """What looks wrong, one line each with where it begins and what helps."""
+        """The notes, one line each, with the begin of the error and advice."""
         notes = [each for check in self._poses.values() for each in check.notes()]
         return [*self._range_notes(), *notes, *self._stamps.notes()]
 

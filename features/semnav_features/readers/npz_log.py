@@ -50,7 +50,7 @@ class NpzLog(LogReader):
 
     @property
     def fraction(self) -> float | None:
-        """How many of the rows have been read, 0 to 1; None if there are none."""
+        """Share of the rows that have been read, 0 to 1; None without rows."""
         return self._read / self._count if self._count else None
 
     def records(self) -> Iterator[LogRecord]:

@@ -1,4 +1,4 @@
-"""Which reader a log asks for."""
+"""Chooses the reader of a log."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _EXPECTED = (
 def open_log(
     path: str | os.PathLike[str], geometry: Geometry | None = None, topic: str | None = None
 ) -> ScanLog:
-    """Open a log of scans with the reader that its content asks for, and then its name.
+    """Open a log of scans with the reader for its content, or else for its name.
 
     Use it as a context manager and iterate over it once:
 
@@ -37,11 +37,11 @@ def open_log(
     Args:
         path: a CARMEN log, CSV or log of BreezySLAM's (text or gz), an npz archive, a ROS 1 bag,
             the folder or the .db3 or .mcap file of a ROS 2 bag.
-        geometry: what the format leaves unsaid.
+        geometry: values that the format does not contain.
         topic: the scans' topic in a bag; None takes the only one.
 
     Raises:
-        LogError: it is not a log that can be read; `TruncatedLogError` if nothing of it can.
+        LogError: it is not a readable log; `TruncatedLogError` if nothing of it can be read.
         ImportError: it is a bag, and rosbags is not installed.
         OSError: it cannot be opened.
     """

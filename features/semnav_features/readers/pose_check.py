@@ -1,4 +1,4 @@
-"""Poses of a log that are no poses in metres and radians, though each may be one by itself."""
+"""Checks whether the poses of a log are in metres and radians."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from semnav_features.frames import Pose
 from semnav_features.readers.log import LogRecord
 
 FASTEST = 5.0
-"""No robot indoors drives as fast, m/s."""
+"""Speed that no indoor robot reaches, m/s."""
 
 JUMP = 2.0
-"""Longest motion from scan to scan of which its speed is not asked, metres."""
+"""Longest motion from scan to scan whose speed is not checked, metres."""
 
 JUMP_WITHOUT_TIME = 5.0
-"""Longest motion from scan to scan where no time tells the speed, metres; logs that were thinned
-out for mapping have up to two."""
+"""Longest motion from scan to scan in a log without times, metres; logs that were thinned out for
+mapping have up to two."""
 
 FROZEN_SCANS = 10
 """Number of scans with one and the same pose after which they are compared for motion."""
@@ -37,10 +37,10 @@ _FULL_TURN = 2.0 * math.pi
 
 
 class PoseCheck:
-    """Watches the poses or the odometry of a log.
+    """Checks the poses or the odometry of a log.
 
     Args:
-        what: is watched, in words.
+        what: the checked values, in words.
         unit: what `LogRecord.line` counts.
     """
 
@@ -55,7 +55,7 @@ class PoseCheck:
         self._first_jump = self._first_frozen = ""
 
     def look(self, pose: Pose, record: LogRecord) -> None:
-        """Take in the next pose."""
+        """Check the next pose."""
         self._courses.look(pose, record.line)
         if self._last is None or pose != self._last[0]:
             self._still, self._still_scans = record, 0
@@ -65,7 +65,7 @@ class PoseCheck:
         self._last = pose, record
 
     def notes(self) -> Iterator[str]:
-        """What is wrong, one line each with where it begins and what helps."""
+        """The notes, one line each, with the begin of the error and advice."""
         if line := self._courses.in_degrees():
             yield (
                 f"{self._unit} {line}: the heading of the {self._what} fits the way it moves only "

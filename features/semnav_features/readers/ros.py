@@ -55,7 +55,7 @@ class RosLog(LogReader):
 
     @property
     def fraction(self) -> float | None:
-        """How many of the messages have been read, 0 to 1; None if there are none."""
+        """Share of the messages that have been read, 0 to 1; None without messages."""
         total = sum(self._bag.counts[channel] for channel in self._wanted)
         return min(1.0, self._read.total() / total) if total else None
 

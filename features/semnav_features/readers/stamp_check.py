@@ -1,4 +1,4 @@
-"""Times of a log that fall or stand."""
+"""Checks the times of a log for falls and standstills."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from collections.abc import Iterator
 from semnav_features.readers.log import LogRecord
 
 DEEP_FALL = 1.0
-"""A time that falls by more is worth a note, seconds; clocks that are set right fall by less."""
+"""Fall of the time beyond which there is a note, seconds; corrected clocks fall by less."""
 
 MANY_FALLS = 0.01
-"""Share of scans beyond which smaller falls are, too."""
+"""Share of scans beyond which smaller falls give a note, too."""
 
 STANDING_SCANS = 10
 """Number of successive scans with one and the same time from which on a note is made."""
 
 
 class StampCheck:
-    """Watches the times of a log; scans without one, or with the time 0, are passed over.
+    """Checks the times of a log; scans without a time, or with the time 0, are ignored.
 
     Args:
         unit: what `LogRecord.line` counts.
@@ -32,7 +32,7 @@ class StampCheck:
         self._standing = self._longest = self._longest_from = 0
 
     def look(self, record: LogRecord) -> None:
-        """Take in the next time."""
+        """Check the next time."""
         if not (now := record.stamp):
             return
         fall = self._last - now if self._scans else 0.0
@@ -52,7 +52,7 @@ class StampCheck:
             self._longest, self._longest_from = self._standing, self._first_still
 
     def notes(self) -> Iterator[str]:
-        """What is wrong, one line each with where it begins and what helps."""
+        """The notes, one line each, with the begin of the error and advice."""
         if self._deepest > DEEP_FALL or self._falls > max(1, MANY_FALLS * self._scans):
             yield (
                 f"{self._unit} {self._first_fall}: the time falls (the first of {self._falls} "

@@ -27,11 +27,11 @@ MAX_EXPANSION = 100
 expand five to twenty times."""
 
 _ALWAYS_EXPANDED = 1 << 20
-"""Bytes that are decompressed at any rate."""
+"""Number of bytes that are always decompressed."""
 
 
 def most_expanded(packed: BinaryIO) -> int:
-    """Bytes to which what was read so far of a compressed log may expand."""
+    """Largest number of decompressed bytes for the part of a compressed log read so far."""
     return _ALWAYS_EXPANDED + MAX_EXPANSION * packed.tell()
 
 
@@ -64,7 +64,7 @@ class TextFile:
 
     @property
     def fraction(self) -> float | None:
-        """How much has been read, 0 to 1; None where the size is unknown."""
+        """Share of the log that has been read, 0 to 1; None if the size is unknown."""
         if not self._size or self._file.closed:
             return None
         return min(1.0, self._file.tell() / self._size)
@@ -99,7 +99,7 @@ class TextLog(LogReader):
 
     @property
     def fraction(self) -> float | None:
-        """How much of the file has been read, 0 to 1; None where its size is unknown."""
+        """Share of the file that has been read, 0 to 1; None if its size is unknown."""
         return self._text.fraction
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""Frozen episodes: what is said where, and what is right; in splits, for training and testing."""
+"""Frozen episodes in splits, for training and testing: start, command and right answer."""
 
 from typing import TYPE_CHECKING
 

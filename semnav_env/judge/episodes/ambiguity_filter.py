@@ -1,6 +1,6 @@
-"""Finds out whether people could judge a command otherwise than the rules: closed doors, glass.
+"""Finds commands that people could judge in another way than the rules: closed doors, glass.
 
-The rules of grounding count what a scan can tell. An episode whose command is impossible, or whose
+The rules of grounding count what a scan can show. An episode whose command is impossible, or whose
 route depends on a condition, must be judged alike by people who count closed or wide doors, or who
 do not see a pane of glass.
 """
@@ -72,7 +72,7 @@ class AmbiguityFilter:
         return met if there or self._seen_to_end(begin) else None
 
     def impossible(self, clause: Clause, begin: Pose) -> bool:
-        """Whether a clause is impossible in every scene, and the robot can find that out.
+        """Whether a clause is impossible in every scene, and the robot can find out that it is.
 
         A turn is impossible if too few junctions of any kind lead to its side; another place, if
         there are too few of any kind.
@@ -85,9 +85,9 @@ class AmbiguityFilter:
         return all(_too_few(clause, view) for view in views)
 
     def _seen_to_end(self, begin: Pose) -> bool:
-        """Whether the end of a corridor can be inspected, and nothing leads on around a corner.
+        """Whether the end of a corridor can be inspected, and no corridor continues around a bend.
 
-        False too where something beside the corridor is neither a side nor an opening.
+        It is also False if a part beside the corridor is neither a side nor an opening.
         """
         for scene in self.scenes:
             seen = corridor_at(scene, begin)

@@ -1,4 +1,4 @@
-"""Checks frozen episodes anew: starts, meanings and feasibility."""
+"""Checks starts, meanings and feasibility of frozen episodes again."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from semnav_env.world.maps.placement import placement_error
 
 
 def faults(episodes: Iterable[Episode]) -> Iterator[tuple[Episode, tuple[str, ...]]]:
-    """Every episode with what is wrong with it, which is nothing for most."""
+    """Yield every episode with its faults; most episodes have none."""
     plan: FloorPlan | None = None
     geodesic: Geodesic | None = None
     for episode in episodes:

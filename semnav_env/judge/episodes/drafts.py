@@ -64,7 +64,7 @@ class Drafter:
         return AmbiguityFilter(self._plan)
 
     def feasible(self, clauses: int, topic: CommandTopic | None) -> Command | None:
-        """A command that can be carried out; None if none came up.
+        """Draw a command that can be carried out; None if none was found.
 
         Args:
             clauses: number of clauses.
@@ -86,7 +86,7 @@ class Drafter:
         return Command(said)
 
     def infeasible(self, clauses: int) -> Command | None:
-        """A command whose last clause, and no other, cannot be carried out by anybody."""
+        """Draw a command of which only the last clause is impossible, by rules and for people."""
         first = self.feasible(clauses - 1, None) if clauses > 1 else None
         if clauses > 1 and first is None:
             return None
@@ -111,7 +111,7 @@ class Drafter:
         return None
 
     def turns(self, clauses: int) -> Command | None:
-        """A command that only turns at junctions, so that it starts no counting of doors."""
+        """Draw a command with turns at junctions only, so that no count of doors restarts."""
         said: tuple[Clause, ...] = ()
         for _ in range(MAX_CLAUSE_DRAWS):
             clause = self._clauses.turn()
@@ -122,7 +122,7 @@ class Drafter:
         return None
 
     def problem(self, clauses: tuple[Clause, ...]) -> str | None:
-        """Why clauses cannot be carried out; None if they can."""
+        """The reason why clauses cannot be carried out; None if they can."""
         try:
             self._followed(clauses)
         except GroundingError as error:
@@ -141,7 +141,7 @@ class Drafter:
         return self.ambiguity_filter.is_behind_a_closed_one(last, self._begin_after(tuple(before)))
 
     def _conditional(self, clauses: int) -> Command | None:
-        """A command that ends with a condition on which everybody agrees, and its branches."""
+        """Draw a command that ends with an unambiguous condition and its branches."""
         hanging = 2 if clauses == 2 or self.rng.random() < 0.5 else 3
         before = self.feasible(clauses - hanging, None) if clauses > hanging else None
         if before is None and clauses > hanging:
@@ -158,7 +158,7 @@ class Drafter:
         return None
 
     def _goals(self, command: Command) -> int:
-        """How many goals a command has; 0 if it cannot be carried out."""
+        """Number of goals of a command; 0 if it cannot be carried out."""
         guide = RoomGuide(self._plan, command, self._geodesic)
         try:
             return len(plan_goals(self._plan, command, self.start, guide))
@@ -173,7 +173,7 @@ class Drafter:
         return goal.next_begin
 
     def _followed(self, clauses: tuple[Clause, ...]) -> Follower:
-        """A follower at the last of some clauses; kept, for those that may come next."""
+        """A follower at the last of some clauses; it is kept for the next clauses."""
         if clauses in self._followers:
             return self._followers[clauses]
         command = Command(clauses)
@@ -190,7 +190,7 @@ class Drafter:
         return follower
 
     def _follows(self, said: tuple[Clause, ...], clause: Clause) -> bool:
-        """Whether a clause adds something to the others; two stretches of a corridor may be one."""
+        """Whether a clause adds something; two clauses along a corridor may be one."""
         if not said or not isinstance(clause, Follow):
             return True
         before = said[-1]
@@ -201,7 +201,7 @@ class Drafter:
     def _draw_clause(
         self, said: tuple[Clause, ...], topic: CommandTopic | None, attempt: int
     ) -> Clause:
-        """The next clause: on that topic, or else on the way to more."""
+        """Draw the next clause: of the topic, or of any kind if more clauses follow."""
         if said and isinstance(said[-1], Leave) and self._faces_a_wall(said):
             return self._clauses.turn_here()
         if topic is not None:
@@ -211,7 +211,7 @@ class Drafter:
         return self._clauses.underway()
 
     def _faces_a_wall(self, said: tuple[Clause, ...]) -> bool:
-        """Whether the robot looks across a corridor, so that nobody would count its doors."""
+        """Whether the robot looks across a corridor; people would not count its doors then."""
         axis = axis_at(self._plan.scene, self._begin_after(said))
         return not leads_on(axis.half_width, axis.end)
 

@@ -26,7 +26,7 @@ class Expected(StrEnum):
 
 
 class StaleEpisodeError(ValueError):
-    """The floor plan is no longer the one that the episode was made in."""
+    """The floor plan has changed since the episode was made."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Episode:
         route: the true route as (x, y), metres, simplified to 5 cm. The route of an impossible
             command ends where it becomes impossible; that of an ambiguous one is empty.
         expected: the right answer.
-        programs: the readings as commands, so that nobody need parse them; empty if not stored.
+        programs: the readings as programs, so that they need not be parsed; empty if not stored.
         token_rows: the tokens of the first reading, a row for each clause, with the rooms of the
             floor plan numbered as `commands.encode` does it; empty if not stored.
     """
@@ -88,7 +88,7 @@ class Episode:
         if found != self.plan_hash:
             raise StaleEpisodeError(
                 f"{self.id}: {self.floor_plan} has changed since the episode was made (its "
-                f"fingerprint is {found}, not {self.plan_hash}); generate the episodes anew"
+                f"fingerprint is {found}, not {self.plan_hash}); generate the episodes again"
             )
         return plan
 
@@ -102,7 +102,7 @@ class Episode:
         return tokens
 
     def understood(self, rooms: tuple[str, ...]) -> Self:
-        """The same episode with programs and tokens stored.
+        """A copy of the episode that stores programs and tokens.
 
         Args:
             rooms: names of the rooms of its floor plan.
@@ -112,7 +112,7 @@ class Episode:
         return replace(self, programs=meanings, token_rows=tuple(map(tuple, rows.tolist())))
 
     def command_in(self, rooms: tuple[str, ...]) -> Command:
-        """What the words mean, given the names of the rooms: parsed only if it is not stored."""
+        """The command that the words mean, given the names of rooms; parsed only if not stored."""
         return self.programs[0] if self.programs else parse(self.command, self.language, rooms)
 
     def meanings(self) -> tuple[Command, ...]:
@@ -124,7 +124,7 @@ class Episode:
 
     @contextmanager
     def named_in_errors(self) -> Iterator[None]:
-        """Give a `ValueError` that does not name the episode a note that does."""
+        """Add the episode's id to a `ValueError` that does not name it."""
         try:
             yield
         except ValueError as error:

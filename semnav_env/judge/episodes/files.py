@@ -1,4 +1,4 @@
-"""Reads and writes files of episodes: one JSON object a line, compressed if named .gz."""
+"""Reads and writes files of episodes: one JSON object in each line, compressed if named .gz."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PLAN_SUFFIX = ".geojson"
 
 
 class EpisodeFileError(ValueError):
-    """A file is no file of episodes; the message names line, field and what would be right."""
+    """A file is not a file of episodes; the message names line, field and a correct value."""
 
 
 def to_line(episode: Episode) -> str:
@@ -107,7 +107,7 @@ def _read(line: str, place: str) -> Episode:
 
 
 def _problems(row: dict[str, Any]) -> Iterator[str]:
-    """Everything that is wrong with a row, in the order of the fields."""
+    """All errors of a row, in the order of the fields."""
     for name in FIELDS:
         if name not in row and name not in STORED:
             yield f"has no {name!r}; an episode has {', '.join(FIELDS)}"
@@ -133,14 +133,14 @@ def _whole(digits: str) -> float:
 
 
 def _frozen(value: Any) -> Any:
-    """Lists as tuples, numbers in them as floats."""
+    """Convert lists to tuples, and numbers in them to floats."""
     if isinstance(value, list):
         return tuple(map(_frozen, value))
     return float(value) if isinstance(value, int) else value
 
 
 MAX_DIGITS = 18
-"""The most digits of an episode's number, which is the seed of its noise: 63 bits hold them."""
+"""Largest number of digits of an episode's number, the seed of its noise: 63 bits hold it."""
 
 
 def _is_seed(digits: str) -> bool:
@@ -192,9 +192,9 @@ FIELDS: dict[str, tuple[Callable[[Any], bool], str]] = {
         f"a list of rows of {CLAUSE_FEATURES} whole numbers, see commands.encode",
     ),
 }
-"""For each field of an episode: a test of its value, and words for what passes it."""
+"""For each field of an episode: a test of its value, and words for correct values."""
 
 STORED = ("programs", "token_rows")
-"""Fields that spare parsing; a file may leave them out."""
+"""Fields that save parsing; a file may leave them out."""
 
 assert tuple(FIELDS) == tuple(field.name for field in fields(Episode))

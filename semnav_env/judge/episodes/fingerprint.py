@@ -1,4 +1,4 @@
-"""A fingerprint of the geometry of a floor plan, by which a change of it is noticed."""
+"""A fingerprint of the geometry of a floor plan, which shows whether the plan has changed."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STEPS_PER_METRE = 1000
 
 
 def fingerprint(plan: FloorPlan) -> str:
-    """The first `FINGERPRINT_DIGITS` of a SHA-256 of what is solid, the doors and the rooms.
+    """The first `FINGERPRINT_DIGITS` of a SHA-256 of solid parts, doors and rooms.
 
     Coordinates are rounded to millimetres, so that every platform gives the same.
     """

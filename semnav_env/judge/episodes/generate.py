@@ -30,12 +30,12 @@ from semnav_features.frames import FloatArray, Point, Pose
 
 @dataclass(frozen=True)
 class EpisodeLimits:
-    """What an episode may be like, and how long one is looked for.
+    """Limits of an episode, and of the search for one.
 
     Attributes:
         starts: starts tried for the topic that an episode should have, before it gets another one.
         drafts_per_start: commands drawn at each start.
-        min_route_length: length of the shortest true route, metres: less is no drive.
+        min_route_length: length of the shortest true route, metres.
         max_route_length: length of the longest true route, metres: it keeps an episode within a few
             minutes of simulated time.
         goal_distance: largest distance from a goal to a place that the largest body reaches, m.
@@ -76,10 +76,10 @@ def generate_split(
 
 
 def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) -> Episode:
-    """One episode of a split.
+    """Make one episode of a split.
 
-    Its number says how many clauses it should have and what its topic should be. Where the floor
-    plan does not allow that, other combinations are tried.
+    The number of the episode determines its number of clauses and its topic. If the floor plan
+    does not allow this combination, other combinations are tried.
 
     Raises:
         TooBareError: no command was found there.
@@ -104,8 +104,8 @@ def _wanted(
 ) -> list[tuple[int, CommandTopic]]:
     """Numbers of clauses and topics for an episode, the wanted one first, then substitutes.
 
-    All combinations take turns, in another order each time, so that no regular choice of episodes
-    has one topic. Rooms are no topic in a plan without named rooms.
+    All combinations are used in turn, in another order each time, so that evenly spaced episodes
+    do not share one topic. In a plan without named rooms, rooms are not a topic.
     """
     pairs = [(n, topic) for n in split.clauses for topic in topics_of(n)]
     if not plan.room_names:
@@ -156,7 +156,7 @@ def _infeasible(
 def _ambiguous(
     site: Site, drafter: Drafter, clauses: int, topic: CommandTopic, language: str
 ) -> EpisodeDraft | None:
-    """A text all of whose readings can be carried out there."""
+    """Draw a text of which every reading can be carried out from a start."""
     first = drafter.turns(clauses - 1) if clauses > 1 else None
     if clauses > 1 and first is None:
         return None
@@ -181,7 +181,7 @@ def _episode(name: str, site: Site, start: Pose, language: str, said: EpisodeDra
 
 
 def _start(site: Site, split: Split, topic: CommandTopic, rng: Generator) -> Pose | None:
-    """A start at which every body can stand, rounded as in a file; in a room to be left."""
+    """Draw a start at which every body can stand, rounded as in a file; in a room for "leave"."""
     in_room = topic is CommandTopic.LEAVE and split.expected is Expected.FEASIBLE
     pose = (_start_in_room if in_room and site.plan.rooms else _start_in_corridor)(site, rng)
     if pose is None:
@@ -192,7 +192,7 @@ def _start(site: Site, split: Split, topic: CommandTopic, rng: Generator) -> Pos
 
 
 def _start_in_corridor(site: Site, rng: Generator) -> Pose | None:
-    """A pose in a random corridor; None if there is no room in it."""
+    """Draw a pose in a random corridor; None if no body has space in it."""
     try:
         return sample_start(site.plan, LARGEST_BODY, rng)
     except ValueError:
@@ -200,7 +200,7 @@ def _start_in_corridor(site: Site, rng: Generator) -> Pose | None:
 
 
 def _start_in_room(site: Site, rng: Generator) -> Pose | None:
-    """A pose in a room with one open door that can be seen and space to turn round; else None."""
+    """Draw a pose in a room with one visible open door and space to turn around; else None."""
     plan = site.plan
     room = plan.rooms[int(rng.integers(len(plan.rooms)))]
     try:

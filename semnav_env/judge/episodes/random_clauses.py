@@ -31,8 +31,8 @@ from semnav_env.language.rooms import plain_name
 T = TypeVar("T")
 
 SPOT_TURN_SHARE = 0.03
-"""Share of turns by degrees among the turns drawn for the end of several clauses. Among those that
-can be carried out their share is larger, for a turn by degrees always can."""
+"""Share of turns by degrees among the turns drawn for the end of several clauses. Among the turns
+that can be carried out this share is larger, because a turn by degrees always can be."""
 
 
 class CommandTopic(StrEnum):
@@ -50,7 +50,7 @@ class CommandTopic(StrEnum):
 
 
 LATER_TOPICS = (CommandTopic.BACK, CommandTopic.WAIT, CommandTopic.CONDITION)
-"""Topics of commands that need several clauses: something is said before them, or behind."""
+"""Topics of commands that need several clauses: one before or after the clause of the topic."""
 
 
 def topics_of(clauses: int) -> tuple[CommandTopic, ...]:
@@ -64,7 +64,7 @@ class RandomClauses:
 
     Args:
         rng: source of randomness.
-        rooms: the names of the rooms there.
+        rooms: the names of the rooms of the floor plan.
     """
 
     def __init__(self, rng: np.random.Generator, rooms: Sequence[str]) -> None:
@@ -91,7 +91,7 @@ class RandomClauses:
                 return GoToDoor(self.door())
 
     def underway(self) -> Clause:
-        """A clause before others. Turns are drawn more often, since fewer of them can be done."""
+        """Draw a clause before others; turns are drawn more often, as fewer of them can be done."""
         if self._rng.random() < 0.85:
             return self.turn()
         if self._rng.random() < 0.1:
@@ -99,7 +99,7 @@ class RandomClauses:
         return self._until(past=0.6)
 
     def condition(self, otherwise: bool) -> tuple[Clause, ...]:
-        """A condition on a door, what to do then, and otherwise if it says so."""
+        """Draw a condition on a door, its branch, and perhaps an "otherwise" branch."""
         side, other_side = self.choose((Side.LEFT, Side.RIGHT), (Side.RIGHT, Side.LEFT))
         door = DoorReference(self.choose(1, 1, 2, 3), side)
         to_it = GoToDoor(door, self.choose(Approach.THROUGH, Approach.THROUGH, Approach.TO))
@@ -124,7 +124,7 @@ class RandomClauses:
         return Turn(self.choose(Turning.LEFT, Turning.RIGHT), degrees=degrees)
 
     def follow(self) -> Follow:
-        """Along the corridor up to somewhere."""
+        """Draw a clause along the corridor up to a place."""
         kind = self._rng.random()
         if kind < 0.03:
             return Follow(PlaceReference(Place.END))

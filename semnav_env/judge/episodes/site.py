@@ -24,11 +24,11 @@ LARGEST_BODY = replace(
     length=max(robot.length for robot in ROBOTS.values()),
     width=max(robot.width for robot in ROBOTS.values()),
 )
-"""A body as long as the longest robot and as wide as the widest: every robot gets to where it
-gets."""
+"""A body as long as the longest robot and as wide as the widest: every robot can reach the places
+that this body reaches."""
 
 PLACES_IN_CORRIDOR = 50
-"""Random places in each corridor from which further parts of a plan are looked for."""
+"""Random places in each corridor from which further parts of a plan are searched for."""
 
 LEAST_PART = 2.0
 """Area for the centre of a body below which a part is a niche, square metres."""
@@ -42,7 +42,7 @@ class Site:
         plan: the floor plan.
         name: name by which `load_floor_plan` finds it.
         whole: whether episodes take place in every part of the plan that has a corridor. If not,
-            they do so in what is reached from the middle of the largest corridor.
+            they take place in the part that is reached from the middle of the largest corridor.
     """
 
     plan: FloorPlan
@@ -56,7 +56,7 @@ class Site:
 
     @cached_property
     def parts(self) -> tuple[Reach, ...]:
-        """The parts that are not connected: the cells of each that every body reaches."""
+        """The unconnected parts of the plan: the cells of each that every body reaches."""
         parts = [reach(self.plan, LARGEST_BODY.length, LARGEST_BODY.width)]
         for place in self._places_in_corridors() if self.whole else ():
             if any(part.near(shapely.Point(place)) for part in parts):
@@ -73,7 +73,7 @@ class Site:
 
     @cached_property
     def unreached(self) -> tuple[str, ...]:
-        """Names of the corridors and rooms that no body gets into from any part."""
+        """Names of the corridors and rooms that no body can enter from any part."""
         regions = (*self.plan.corridors, *self.plan.rooms)
         return tuple(
             region.name
@@ -83,11 +83,11 @@ class Site:
 
     @cached_property
     def plan_hash(self) -> str:
-        """Its fingerprint."""
+        """The fingerprint of the floor plan."""
         return fingerprint(self.plan)
 
     def _places_in_corridors(self) -> Iterator[Point]:
-        """Free places in all corridors, the same ones each time."""
+        """Free places in all corridors, the same at each call."""
         rng = np.random.default_rng(0)
         for corridor in self.plan.corridors:
             for _ in range(PLACES_IN_CORRIDOR):

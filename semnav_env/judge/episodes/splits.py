@@ -31,7 +31,7 @@ class Split:
 
     Attributes:
         name: name of the split.
-        about: what it is for, in a few words.
+        about: its purpose, in a few words.
         episodes: number of episodes.
         buildings: number of floor plans, each with the same number of episodes.
         clauses: numbers of clauses of a command; each, with each topic, is equally frequent.
@@ -50,7 +50,7 @@ class Split:
     expected: Expected = Expected.FEASIBLE
 
     def floor_plan(self, number: int) -> str:
-        """The name of the floor plan of an episode: the distributions take turns."""
+        """The name of the floor plan of an episode; the distributions are used in turn."""
         if self.first is None:
             return self.plan
         office = number * self.buildings // self.episodes
@@ -106,7 +106,7 @@ def load_episodes(name: str | Path) -> tuple[Episode, ...]:
 
     Raises:
         ValueError: no such split; lists those there are.
-        EpisodeFileError: the file is none of episodes.
+        EpisodeFileError: the file is not a file of episodes.
     """
     if isinstance(name, str) and name in SPLITS:
         return _frozen(name)
@@ -143,7 +143,7 @@ def is_episodes(name: str | Path) -> bool:
 
 
 def evenly(episodes: Sequence[Episode], count: int) -> tuple[Episode, ...]:
-    """A number of episodes spread evenly over a split; all of them if there are no more."""
+    """Choose a number of episodes spread evenly over a split; all of them if there are fewer."""
     count = min(count, len(episodes))
     return tuple(episodes[k * len(episodes) // count] for k in range(count))
 

@@ -1,4 +1,4 @@
-"""Walks a point through a command: proof that the judge accepts its true route."""
+"""Walks a point through a command, to prove that the judge accepts its true route."""
 
 from __future__ import annotations
 
@@ -15,15 +15,14 @@ STEP_SECONDS = 0.1
 """Time from one pose of the walk to the next, seconds."""
 
 CROSSING_DEPTH = 0.4
-"""Distance that the walk goes on behind the middle of a door, metres, so that the door is
-crossed."""
+"""Distance that the walk continues behind the middle of a door to cross it, metres."""
 
 MAX_LEGS = 20
-"""Largest number of goals that are gone to; a command has fewer."""
+"""Largest number of goals of a walk; a command has fewer."""
 
 
 def carries_out(judge: Judge) -> bool:
-    """Whether going to each goal by the shortest way carries the command out.
+    """Whether a walk to each goal along the shortest path carries the command out.
 
     A point is moved, so this says nothing about bodies. The judge cannot be used afterwards.
     """

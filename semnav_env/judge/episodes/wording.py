@@ -25,7 +25,7 @@ from semnav_env.language.errors import CommandError
 from semnav_env.language.languages import language_of
 
 PARAPHRASED_SHARE = 0.6
-"""Share of the commands that are said in other than canonical words."""
+"""Share of the commands with other than canonical words."""
 
 CORRECTED_SHARE = 0.18
 """Share of the commands with a slip of the tongue that is corrected."""
@@ -38,14 +38,14 @@ CORRECTED_DOORS = {
     "en": {"left": "the left one", "right": "the right one", "nth": "the {} one"},
     "de": {"left": "die linke", "right": "die rechte", "nth": "die {}"},
 }
-"""Words for the right door in a correction: by its side, or by its ordinal."""
+"""Words for the correct door in a correction: by its side, or by its ordinal."""
 
 
 CORRECTED_TURNS = {
     "en": {"left": "left", "right": "right"},
     "de": {"left": "links", "right": "rechts"},
 }
-"""Words for the right side of a turn in a correction."""
+"""Words for the correct side of a turn in a correction."""
 
 
 CLOSED_DOOR_PHRASES = {
@@ -61,7 +61,7 @@ _OPPOSITE = {"left": "right", "right": "left"}
 def worded(
     command: Command, language: str, rng: Generator, rooms: Sequence[str], *, closed: bool = False
 ) -> str | None:
-    """Words that mean a command and nothing else, given the names of the rooms.
+    """Draw words with exactly the meaning of a command, given the names of the rooms.
 
     Args:
         command: the command to word; its last clause may be said wrongly first, then corrected.

@@ -30,7 +30,7 @@ from semnav_features.frames import FloatArray, Point, wrap_angle
 
 @dataclass(frozen=True)
 class EventThresholds:
-    """What counts as a turn and as a stop.
+    """Thresholds for a turn and for a stop.
 
     Attributes:
         stop_seconds: shortest time of standing still that is a stop.
@@ -54,7 +54,7 @@ ARMS = (Arm.AHEAD, Arm.LEFT, Arm.BACK, Arm.RIGHT)
 
 
 Mask = NDArray[np.bool_]
-"""A yes or no for each row of a recording, shape (n,)."""
+"""A truth value for each row of a recording, shape (n,)."""
 
 
 def events_of(recording: Recording, floor_plan: FloorPlan) -> tuple[Event, ...]:
@@ -171,13 +171,13 @@ def _contacts(recording: Recording) -> Iterator[ContactBegun]:
 
 
 def runs(mask: Mask) -> list[tuple[int, int]]:
-    """The stretches of a mask that are true: (first row, row after the last)."""
+    """The runs of a mask that are true: (first row, row after the last)."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], mask, [False])).astype(np.int8)))
     return [(start, stop) for start, stop in edges.reshape(-1, 2).tolist()]
 
 
 def _joined(stretches: list[tuple[int, int]], gap: int) -> list[tuple[int, int]]:
-    """The stretches, those at most `gap` rows apart made one."""
+    """The runs, with those at most `gap` rows apart joined."""
     joined: list[tuple[int, int]] = []
     for start, stop in stretches:
         if joined and start - joined[-1][1] <= gap:

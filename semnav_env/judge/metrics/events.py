@@ -43,7 +43,7 @@ class DoorCrossed:
 
 @dataclass(frozen=True, slots=True)
 class JunctionEntered:
-    """The robot's centre came into an intersection of the plan.
+    """The robot's centre entered an intersection of the plan.
 
     Attributes:
         step: row of the recording.
@@ -79,7 +79,7 @@ class JunctionLeft:
 
 @dataclass(frozen=True, slots=True)
 class Turned:
-    """The robot began to turn, and turned without pause.
+    """The robot turned without a pause.
 
     Attributes:
         step: row of the recording at which the turn began.
@@ -96,7 +96,7 @@ class Turned:
 
 @dataclass(frozen=True, slots=True)
 class Stopped:
-    """The robot came to a stand.
+    """The robot stopped.
 
     Attributes:
         step: row of the recording.

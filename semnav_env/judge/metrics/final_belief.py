@@ -1,4 +1,4 @@
-"""What a robot believed at the end of an episode, for pictures of what went wrong."""
+"""The robot's belief at the end of an episode, for pictures of failures."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from semnav_features.scene import Door
 
 @dataclass(frozen=True)
 class FinalBelief:
-    """The doors that a robot remembered at the end, and where its agent was driving to.
+    """The doors that a robot remembered at the end, and the goal of its agent.
 
     Attributes:
         doors: remembered doors, world frame, as seen from the true pose of the robot.

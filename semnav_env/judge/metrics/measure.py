@@ -75,9 +75,9 @@ def measure(recording: Recording, judge: Judge, robot: RobotSpec) -> Metrics:
 
 
 def geodesic_distances(ways: WaysTo, points: FloatArray) -> FloatArray:
-    """Lengths of the shortest ways from points of shape (n, 2), metres, shape (n,).
+    """Lengths of the shortest paths from points of shape (n, 2), metres, shape (n,).
 
-    A point without a way gets the length of the way from the nearest point that has one.
+    A point without a path gets the length of the path from the nearest point that has one.
     """
     known = [ways.length((x, y)) for x, y in points.tolist()]
     return np.array(
@@ -89,7 +89,7 @@ def geodesic_distances(ways: WaysTo, points: FloatArray) -> FloatArray:
 
 
 def ever_met(goal: Goal, recording: Recording, rules: SuccessRules) -> bool:
-    """Whether a goal was met at any time, whatever happened before."""
+    """Whether a goal was met at some time, whether or not the clauses before were done."""
     poses = [(x, y, heading) for x, y, heading in recording.poses.tolist()]
     match goal:
         case PassGoal():
@@ -103,12 +103,12 @@ def ever_met(goal: Goal, recording: Recording, rules: SuccessRules) -> bool:
 
 
 def stood_there(goal: StopGoal, recording: Recording, standstill_speed: float) -> bool:
-    """Whether the robot stood still within `GOAL_RADIUS` of a goal for as long as the goal says.
+    """Whether the robot stood still within `GOAL_RADIUS` of a goal for the duration of the goal.
 
     Args:
-        goal: where, and for how long.
-        recording: of the episode.
-        standstill_speed: below it a robot stands still, m/s.
+        goal: a stop goal, with its duration.
+        recording: recording of the episode.
+        standstill_speed: speed below which a robot stands still, m/s.
     """
     away = np.hypot(*(recording.path[1:] - goal.pose[:2]).T)
     stands = (recording.speeds[1:] < standstill_speed) & (away < GOAL_RADIUS)

@@ -13,11 +13,10 @@ from semnav_env.world.maps.placement import footprint
 from semnav_features.frames import FloatArray
 
 MAX_CLEARANCE = 10.0
-"""Largest clearance that is told, metres; nothing farther away matters."""
+"""Largest clearance that is reported, metres; farther obstacles do not matter."""
 
 LEAST_PATH = 1.0
-"""Least length of path that collisions are divided by, metres, so that standing still divides by no
-zero."""
+"""Least length of path by which collisions are divided, metres; it avoids a division by zero."""
 
 
 def rms_jerk(path: FloatArray, period: float) -> float:
@@ -37,9 +36,10 @@ def rms_jerk(path: FloatArray, period: float) -> float:
 
 
 def clearances(poses: FloatArray, robot: RobotSpec, floor_plan: FloorPlan) -> FloatArray:
-    """Distance of the footprint from the nearest solid segment, Euclidean, metres, shape (n,).
+    """Euclidean distance of the footprint from the nearest solid segment, metres, shape (n,).
 
-    0 where they touch, and at most `MAX_CLEARANCE`. Only what the plan holds counts.
+    The distance is 0 where they touch, and at most `MAX_CLEARANCE`. Only segments of the plan
+    count.
 
     Args:
         poses: poses of the robot's centre, shape (n, 3), world frame.

@@ -42,7 +42,7 @@ REMEMBERED_COLOUR = "#00a6a6"
 """Colour of the doors that the robot remembered, and of its agent's own goal."""
 
 PERSON_COLOUR = "#e07b00"
-"""Colour of people and of where they came from."""
+"""Colour of people and of their paths."""
 
 LEAF_COLOUR = "saddlebrown"
 """Colour of the leaves of doors that open and close."""
@@ -51,7 +51,7 @@ BODY_INTERVAL = 1.0
 """Time between the bodies that are drawn, seconds."""
 
 TRAIL_LENGTH = 3.0
-"""Length of the last part of the way of each person that is drawn, metres."""
+"""Length of the drawn last part of each person's path, metres."""
 
 VIEW_MARGIN = 2.5
 """Margin around path and route that is shown, metres."""
@@ -73,7 +73,7 @@ def save_episode(
     title: str = "",
     belief: FinalBelief | None = None,
 ) -> None:
-    """Write a picture of an episode: the plan, the true route, the way driven, contacts, goals.
+    """Write a picture of an episode: the plan, the true route, the driven path, contacts, goals.
 
     Doors that open and close, and people, are drawn where they were at the end; people with the
     last metres of their way.
@@ -115,7 +115,7 @@ def draw_episode(
     route: FloatArray,
     goals: Sequence[Goal] = (),
 ) -> None:
-    """Draw the true route, the way driven, bodies, contacts, goals and what moved onto a plan."""
+    """Draw true route, driven path, bodies, contacts, goals and moving things onto a plan."""
     _draw_moved(ax, recording)
     ax.plot(*route.T, "--", color=ROUTE_COLOUR, linewidth=1.8, label="true route", zorder=4)
     _draw_bodies(ax, recording, robot)
@@ -131,7 +131,7 @@ def draw_episode(
 
 
 def draw_belief(ax: Axes, belief: FinalBelief) -> None:
-    """Draw the doors that a robot remembered at the end, and the goal of its agent then."""
+    """Draw the doors that a robot remembered at the end, and the last goal of its agent."""
     for number, door in enumerate(belief.doors):
         label = "remembered doors" if number == 0 else None
         ends = zip(door.start, door.end, strict=True)
@@ -163,7 +163,7 @@ def _draw_moved(ax: Axes, recording: Recording) -> None:
 
 
 def _tail(way: FloatArray) -> FloatArray:
-    """The last part of a way, at most `TRAIL_LENGTH` long."""
+    """The last part of a path, at most `TRAIL_LENGTH` long."""
     steps = np.linalg.norm(np.diff(way, axis=0), axis=1)
     left = np.append(np.cumsum(steps[::-1])[::-1], 0.0)
     return way[left <= TRAIL_LENGTH]

@@ -1,4 +1,4 @@
-"""A recorded episode: poses, velocities and contacts, one row a step."""
+"""A recorded episode: poses, velocities and contacts, one row for each step."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ OPTIONAL_ARRAYS = ("people", "leaves")
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """One episode as it was driven. Row 0 is the start; each step adds a row.
+    """A driven episode as arrays; row 0 is the start, and each step adds a row.
 
     Attributes:
         poses: true poses of the robot's centre, shape (n + 1, 3), world frame, metres and radians.
@@ -37,7 +37,7 @@ class Recording:
         impulses: sum of the magnitudes of the impulses received during the step, N s, shape
             (n + 1,).
         period: duration of a step, seconds.
-        people: x, y and radius of everybody, metres, shape (n + 1, k, 3).
+        people: x, y and radius of each person, metres, shape (n + 1, k, 3).
         leaves: the leaves of doors that open and close as they stood at the end: x1, y1, x2, y2
             in metres, shape (m, 4).
 
@@ -72,7 +72,7 @@ class Recording:
 
     @property
     def steps(self) -> int:
-        """How many steps were taken."""
+        """Number of steps."""
         return len(self.poses) - 1
 
     @property
@@ -92,7 +92,7 @@ class Recording:
 
     @property
     def collisions(self) -> int:
-        """How many contacts began."""
+        """Number of contacts that began."""
         touched = self.contacts > 0
         return int(touched[0]) + int(np.count_nonzero(touched[1:] & ~touched[:-1]))
 

@@ -20,14 +20,15 @@ COST_METRICS = frozenset(
         "seconds",
     )
 )
-"""Names of the measures of which high values are the bad ones."""
+"""Names of the measures whose high values are bad."""
 
 
 @dataclass(frozen=True)
 class Metrics:
     """The measures of one episode; docs/metrics.md gives their formulas.
 
-    NaN stands for what an episode does not have: a command that is impossible has no SPL and SDTW.
+    NaN stands for a measure that an episode does not have: an impossible command has no SPL and
+    sDTW.
 
     Attributes:
         success: the whole command was carried out; doors count by their identity.
@@ -83,7 +84,7 @@ METRIC_NAMES = tuple(Metrics.__dataclass_fields__)
 
 
 def means(episodes: Sequence[Metrics]) -> dict[str, float]:
-    """The mean of each measure; of collisions per 100 m, that over the way of all episodes.
+    """The mean of each measure; for collisions per 100 m, the mean over the path of all episodes.
 
     Raises:
         ValueError: no episodes.

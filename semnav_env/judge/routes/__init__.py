@@ -1,4 +1,4 @@
-"""Routes through a floor plan: made, described by commands, and pointed out to named rooms.
+"""Routes through a floor plan: making them, describing them by commands, and ways to named rooms.
 
 Import from the modules: the judge needs `room_guide` here, while `describe` and `follow` need
 the judge.

@@ -34,21 +34,20 @@ CORRIDOR_END = PlaceReference(Place.END)
 
 
 MAX_TOLD_DISTANCE = 50.0
-"""Longest distance that a clause tells in metres."""
+"""Longest distance that a clause names in metres."""
 
 SIDE_TURNINGS = (Turning.LEFT, Turning.RIGHT)
-"""Turns that a junction can be named for."""
+"""Turns for which a junction can be named."""
 
 SPOT_TURN_DEGREES = (45, 135)
-"""Turns on the spot that are told in degrees; those by 90 and 180 have words."""
+"""Turns on the spot that are said in degrees; those by 90 and 180 degrees have words."""
 
 
 LEAVING_ANGLE = 0.9
-"""Angle between a route and the corridor's axis from which on the route has left the corridor,
-radians."""
+"""Angle to the corridor's axis at which a route has left the corridor, radians."""
 
 SIDE_MARGIN = 0.3
-"""Distance beyond the side of a corridor from which on a route has left it, metres."""
+"""Distance beyond the side of a corridor at which a route has left it, metres."""
 
 MAX_DOOR_DISTANCE = 1.5
 """Largest distance from the end of a route to a door that it may lead to, metres."""
@@ -71,7 +70,7 @@ class Choices:
     def groups(self) -> Iterator[Sequence[Clause]]:
         """The clauses that may lead along the route.
 
-        Those of a group mean the same, the shortest first; not all of them need be unambiguous.
+        The clauses of a group mean the same, the shortest first; not all need to be unambiguous.
         """
         seen = self.situation.corridor
         doors = doors_along(self.situation.scene, seen)
@@ -84,7 +83,7 @@ class Choices:
             yield sorted(group, key=words_of)
 
     def _doors(self, doors: Sequence[CountedDoor]) -> Iterator[Sequence[Clause]]:
-        """Clauses through the next door, or to the one before which the route ends."""
+        """Clauses through the next door, or to the door before which the route ends."""
         for door in doors:
             names = names_of_door(door, doors)
             if self.door is not None and door.door.name == self.door:

@@ -26,7 +26,7 @@ from semnav_features.frames import Pose, path_length, wrap_angle
 
 @dataclass(frozen=True)
 class DescriptionLimits:
-    """How exactly a command must describe a route, and how long one is looked for.
+    """Required accuracy of the description of a route, and limits of the search for it.
 
     Attributes:
         end_distance: largest distance from the end of a route to the end of its command, metres,
@@ -72,7 +72,7 @@ class PartialDescription:
     words: int
 
     def key(self) -> tuple[object, ...]:
-        """What the rest of the description depends on, to 5 cm and 3 degrees."""
+        """The state that determines the rest of the description, to 5 cm and 3 degrees."""
         x, y, heading = self.begin
         past = bool(self.clauses) and _is_past(self.clauses[-1])
         turned = round(math.cos(heading) * 20), round(math.sin(heading) * 20)
@@ -80,11 +80,11 @@ class PartialDescription:
 
 
 def describe(floor_plan: FloorPlan, route: Route) -> Command:
-    """The shortest command that leads along a route: of the fewest clauses, then the fewest words.
+    """Find the shortest command that leads along a route: fewest clauses, then fewest words.
 
     The judge accepts the route for it. If the route ends behind a door that it has crossed, or
-    facing one, the command ends with going through that very door, or to it; else where the route
-    ends, within `LIMITS.end_distance`.
+    facing one, the command ends with going through that door, or to it; else it ends within
+    `LIMITS.end_distance` of the end of the route.
 
     Args:
         floor_plan: the floor plan.
@@ -94,7 +94,7 @@ def describe(floor_plan: FloorPlan, route: Route) -> Command:
         RouteError: the route leads through something solid, or nowhere.
         UndescribableError: no command of up to eight clauses leads along the route; says how far
             one leads.
-        TypeError: it is no route.
+        TypeError: `route` is not a `Route`.
     """
     if not isinstance(route, Route):
         raise TypeError(f"describe needs a Route, as route_to makes it, not {route!r}")
@@ -156,7 +156,7 @@ class _Search:
                 break
 
     def _done(self, goal: Goal, index: int, stop: int, door: str | None) -> int | None:
-        """Index of the pose at which a goal is attained, up to the next door; None if it is not."""
+        """Index of the pose at which a goal is reached, up to the next door; None if it is not."""
         if isinstance(goal, PassGoal):
             return stop if goal.door.name == door and self._crosses(goal, stop) else None
         if not isinstance(goal, ReachGoal):
@@ -168,7 +168,7 @@ class _Search:
         return index + 1 + int(np.argmax(there)) if there.any() else None
 
     def _is_direct(self, goal: Goal, index: int, done: int) -> bool:
-        """Whether a clause leads along its part of the route, which wanders nowhere else."""
+        """Whether the part of the route of a clause is about as long as the straight line."""
         most = LIMITS.detour_factor * math.dist(place(goal), self._poses[index, :2]) + LIMITS.rest
         return self._length(index, done) <= most
 
@@ -206,7 +206,7 @@ class _Search:
         return facing is None or abs(wrap_angle(goal.pose[2] - facing)) <= LIMITS.end_angle
 
     def _is_late(self, done: int) -> bool:
-        """Whether next to nothing of the route is left at a pose."""
+        """Whether almost nothing of the route is left at a pose."""
         crossed = all(k <= done for k, _ in self._crossings)
         return crossed and self._length(done, len(self._poses)) <= LIMITS.rest
 

@@ -27,7 +27,7 @@ LONGEST_SIDE = 12.0
 def draw_routes(
     floor_plan: FloorPlan, routes: Sequence[tuple[Route, str]], ax: Axes, names: bool = True
 ) -> None:
-    """Draw routes into a plan, each with what is said of it.
+    """Draw routes into a plan, each with its text.
 
     Args:
         floor_plan: the floor plan.

@@ -1,4 +1,4 @@
-"""What a robot that follows a route exactly crosses, and what the judge says of it."""
+"""Follows a route exactly: the doors that are crossed, and the verdict of the judge."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ STAND_OFF_TOLERANCE = 0.2
 ends, metres."""
 
 LEAST_ROUTE_LENGTH = 0.5
-"""Length below which a route that turns nowhere leads nowhere, metres."""
+"""Length below which a route without a turn is too short, metres."""
 
 REST_POSES = 2
 """Number of poses at rest after the end of a route; some goals count only once the robot stands."""
@@ -37,7 +37,7 @@ STEP_SECONDS = 0.1
 
 
 def follows(floor_plan: FloorPlan, command: Command, route: Route) -> bool:
-    """Whether a robot that follows a route carries out a command, as the judge has it.
+    """Whether a robot that follows a route carries out a command, as the judge decides.
 
     Raises:
         GroundingError: the command cannot be carried out from the start of the route.
@@ -65,7 +65,7 @@ def crossings(floor_plan: FloorPlan, poses: FloatArray) -> list[tuple[int, str]]
 
 
 def destination(floor_plan: FloorPlan, route: Route) -> tuple[str, Approach] | None:
-    """The door that a route leads through at its end, or up to; None if it ends elsewhere."""
+    """The door through which, or up to which, a route leads at its end; None if there is none."""
     poses = route.poses
     crossed = crossings(floor_plan, poses)
     if crossed:
@@ -85,7 +85,7 @@ def check_route(floor_plan: FloorPlan, route: Route) -> None:
     """Refuse a route that no robot can follow.
 
     Raises:
-        RouteError: it leads through something solid, or nowhere.
+        RouteError: the route leads through something solid, or is too short.
     """
     closed = {door.name for door in floor_plan.doors if not door.open}
     for _, name in crossings(floor_plan, route.poses):

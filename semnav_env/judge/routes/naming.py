@@ -17,7 +17,7 @@ from semnav_env.mind.grounding.junctions import junctions_ahead
 from semnav_features.corridor import Corridor, Junction
 
 JUNCTION_KINDS = (Place.CORNER, Place.T_JUNCTION, Place.INTERSECTION, Place.TURNING, Place.END)
-"""What a junction may be called, the plainest word first."""
+"""Words for a junction, the simplest word first."""
 
 
 def names_of_door(target: CountedDoor, doors: Sequence[CountedDoor]) -> Iterator[DoorReference]:

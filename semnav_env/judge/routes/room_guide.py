@@ -31,7 +31,7 @@ class RoomGuide:
     def __call__(self, clause: int, begin: Pose) -> Way | None:
         """The way to the room that a clause names, world frame; None if it names none.
 
-        Each way that was asked for is kept in `ways` under the number of its clause.
+        Each computed way is kept in `ways` under the number of its clause.
 
         Raises:
             GroundingError: there is no such room, or no way into it.

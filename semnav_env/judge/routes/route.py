@@ -27,12 +27,12 @@ class RouteError(ValueError):
 
 @dataclass(frozen=True, eq=False)
 class Route:
-    """A way from a pose along points.
+    """A route from a start pose along points.
 
     Attributes:
         start: pose of the robot at the start, world frame.
         points: points of the route, shape (k, 2), world frame, metres; the first is the start.
-        facing: heading to turn to at the end, radians; None to stay as it comes.
+        facing: heading to turn to at the end, radians; None to keep the heading.
 
     Raises:
         RouteError: a number is not finite, there are no two points, or they begin elsewhere.
@@ -63,8 +63,8 @@ class Route:
     def poses(self) -> FloatArray:
         """Poses of a robot that follows the route, shape (n, 3), `POSE_SPACING` apart.
 
-        It faces the way it goes. Where that changes by more than `HEADING_STEP` from pose to pose,
-        the robot turns on the spot.
+        The robot faces along the route. Where this direction changes by more than `HEADING_STEP`
+        from pose to pose, the robot turns on the spot.
         """
         marks = np.linspace(0.0, self.length, math.ceil(self.length / POSE_SPACING) + 1)
         ahead = self._at(marks + LOOK_DISTANCE) - self._at(marks - LOOK_DISTANCE)

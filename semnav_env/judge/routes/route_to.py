@@ -19,18 +19,18 @@ from semnav_features.frames import FloatArray, Point, Pose
 _STAND_OFF = GroundingRules().stand_off
 
 MAX_ROOM_DISTANCE = 0.5
-"""Largest distance of the middle of a door from a room that it is a door of, metres."""
+"""Largest distance of the middle of a door from the room to which it belongs, metres."""
 
 
 PREFERRED_CLEARANCE = 0.8
-"""Distance from everything solid below which a way counts as longer than it is, metres."""
+"""Clearance below which a path counts as longer than it is, metres."""
 
 SMOOTHING_POINTS = 7
 """Number of points of a way, 0.1 m apart, over which each one is averaged."""
 
 
 def comfortable(floor_plan: FloorPlan) -> Geodesic:
-    """The shortest ways that keep to the middle of corridors, as routes do."""
+    """Shortest paths that keep to the middle of corridors, for routes."""
     return Geodesic(floor_plan, PREFERRED_CLEARANCE)
 
 
@@ -41,7 +41,7 @@ def route_to(
     approach: Approach = Approach.THROUGH,
     geodesic: Geodesic | None = None,
 ) -> Route:
-    """A route of a robot's centre to a door, a room or a place.
+    """Make a route of a robot's centre to a door, a room or a place.
 
     Args:
         floor_plan: the floor plan.
@@ -86,7 +86,7 @@ def _check_inside(floor_plan: FloorPlan, goal: Point) -> None:
 
 
 def _winding(geodesic: Geodesic, route: Route) -> Route:
-    """A route to about the same end around what stands in a doorway, such as a half-open leaf."""
+    """A route to about the same end around obstacles in a doorway, such as a half-open leaf."""
     x, y = route.points[-1].tolist()
     way = geodesic.to((x, y)).way(route.start[:2])
     return Route(route.start, way[:-1]) if len(way) > 2 else route
@@ -111,7 +111,7 @@ def _to_door(start: Pose, way: FloatArray, door: PlanDoor, approach: Approach) -
 
 
 def _before(way: FloatArray, middle: FloatArray) -> FloatArray:
-    """The last point of a way that is clearly before the doorway that it leads to."""
+    """The last point of a path that is clearly before the doorway to which it leads."""
     apart = np.flatnonzero(np.hypot(*(way - middle).T) > _STAND_OFF / 2)
     return np.asarray(way[apart[-1] if len(apart) else 0])
 

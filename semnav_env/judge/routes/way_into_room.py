@@ -30,13 +30,13 @@ narrower than twice this, halls are not."""
 
 
 def way_into(plan: FloorPlan, geodesic: Geodesic, room: Region, pose: Pose, named: str) -> Way:
-    """The shortest way into a room, through the nearest of its open doors if it has any.
+    """The shortest way into a room, through the nearest of its open doors, if it has any.
 
     Args:
         plan: floor plan of the building.
         geodesic: its shortest ways.
-        room: to go into.
-        pose: from where, world frame.
+        room: the room.
+        pose: start pose, world frame.
         named: the clause that names the room, for the message.
 
     Raises:
@@ -96,7 +96,7 @@ def _side_room(segments: FloatArray, places: FloatArray, directions: FloatArray)
 
 
 def _has_come_in(pose: Pose, entries: list[tuple[PlanDoor, float]]) -> bool:
-    """Whether a robot stands in a door and looks in, as after a clause that led through it."""
+    """Whether a robot stands in a doorway and faces inward, as after a clause through this door."""
     return any(
         math.dist(pose[:2], door.midpoint) < DOORWAY_RADIUS and math.cos(heading - pose[2]) > 0.0
         for door, heading in entries

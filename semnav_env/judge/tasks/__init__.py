@@ -1,4 +1,4 @@
-"""What episodes are about: what is asked for, what is to be done, and what it is worth."""
+"""Tasks: the requests of episodes, their missions, and their rewards."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Reward terms of one's own."""
+"""Reward terms of your own, added to other rewards."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from semnav_env.judge.tasks.rewards import Rewards, RewardTerm, RewardWeights, T
 
 @dataclass(frozen=True)
 class AddedTerms:
-    """Rewards with terms of one's own beside them.
+    """Rewards with terms of your own added to them.
 
         AddedTerms({"smooth": lambda tick: -0.1 * abs(tick.motion.yaw_rate)})
 
@@ -41,4 +41,4 @@ class AddedTerms:
 
     def _refuse(self, names: Iterable[str]) -> None:
         if taken := self.added.keys() & set(names):
-            raise ValueError(f"reward terms {sorted(taken)} are there already; name yours anew")
+            raise ValueError(f"reward terms {sorted(taken)} exist already; choose other names")

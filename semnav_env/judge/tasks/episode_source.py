@@ -1,4 +1,4 @@
-"""Says what each episode is asked to be: by `reset`, or else by a task."""
+"""Gives each episode its request: from the options of `reset`, or else from a task."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ if TYPE_CHECKING:
 
 
 USUAL_PLAN = "heidelberg_hallway"
-"""The floor plan where neither an argument nor a request says another."""
+"""The default floor plan, if neither an argument nor a request names another one."""
 
 
 class EpisodeSource:
-    """Where the requests of an environment come from.
+    """Source of the requests of an environment.
 
     Args:
         task: what `task=` takes, see `as_task`.
-        episodes: to draw from instead.
+        episodes: frozen episodes to draw from instead.
 
     Raises:
         ValueError: both are given, or one of them is something else.
@@ -37,11 +37,11 @@ class EpisodeSource:
         self._asked_task = False
 
     def next(self, options: dict[str, Any] | None, rng: np.random.Generator) -> EpisodeRequest:
-        """What the next episode is asked to be.
+        """The request of the next episode.
 
         Args:
-            options: of `reset`; the task is asked where there are none.
-            rng: of the environment.
+            options: options of `reset`; without any, the task decides.
+            rng: random generator of the environment.
 
         Raises:
             ValueError: bad options, or an episode that is unknown or cannot be carried out.
@@ -73,7 +73,7 @@ class EpisodeSource:
         return USUAL_PLAN if given is None else given
 
     def note(self, success: bool) -> None:
-        """Tell a task that learns how an episode ended that it asked for."""
+        """Tell a task that learns how the last episode ended."""
         if self._asked_task and isinstance(self.task, AdaptiveTask):
             self._asked_task = False  # who drives on past the end ends no other episode
             self.task.note(success)

@@ -24,7 +24,7 @@ class FrozenEpisodes:
         episodes: a split, a file, or episodes.
 
     Raises:
-        ValueError: no such split, no episodes, or ambiguous ones, which nobody can carry out.
+        ValueError: no such split, no episodes, or ambiguous ones, which cannot be carried out.
     """
 
     def __init__(self, episodes: Episodes) -> None:
@@ -37,7 +37,7 @@ class FrozenEpisodes:
         return EpisodeRequest(episode=self._episodes[drawn])
 
     def find(self, wanted: object) -> Episode:
-        """The episode of that id.
+        """The episode with an id.
 
         Raises:
             ValueError: there is none; names the first and the last.
@@ -48,7 +48,7 @@ class FrozenEpisodes:
 
 
 def spelled_out(request: EpisodeRequest, episodes: FrozenEpisodes | None) -> EpisodeRequest:
-    """A request with command, pose and floor plan in place of the episode that it names.
+    """Replace the episode of a request by its command, pose and floor plan.
 
     Args:
         request: for an episode.

@@ -1,4 +1,4 @@
-"""Steps that go without saying: who is in a room leaves it before counting the corridor's doors.
+"""Implicit steps: a robot in a room leaves it before it counts the doors of the corridor.
 
 MacMahon, Stankiewicz and Kuipers, "Walk the Talk" (AAAI 2006), infer such actions from what route
 instructions leave out.
@@ -29,10 +29,11 @@ Feasible = Callable[[Command], bool]
 
 
 def with_implicit_steps(command: Command, feasible: Feasible, *, in_room: bool) -> Command:
-    """The command with the steps that it leaves unsaid; itself if it can be carried out.
+    """Add the implicit steps to a command that cannot be carried out without them.
 
-    One leaves the room that one is in, or has been sent into, and turns to the side that the next
-    clause names; if it names none, to the only side on which it can be carried out.
+    The robot leaves the room in which it is, or into which a clause has led it, and turns to the
+    side that the next clause names. If this clause names no side, the robot turns to the only side
+    on which the clause can be carried out.
 
     Args:
         command: as it was said.

@@ -1,4 +1,4 @@
-"""From what an episode is asked to be to a mission; what is not asked for is drawn."""
+"""Makes a mission from the request of an episode; values that are not requested are drawn."""
 
 from __future__ import annotations
 
@@ -20,16 +20,16 @@ from semnav_env.world.maps.placement import placement_error
 from semnav_features.frames import Pose
 
 MOST_DRAWS = 200
-"""Start poses drawn before a floor plan is found unfit for commands."""
+"""Largest number of start poses drawn before a floor plan is refused as unfit for commands."""
 
 
 class MissionMaker:
     """Makes missions in one floor plan for one body.
 
     Args:
-        floor_plan: where.
-        robot: which body must find room.
-        rules: what a door is, and what success is.
+        floor_plan: the floor plan.
+        robot: the body that must have space at the start.
+        rules: rules of doors, grounding and success.
     """
 
     def __init__(self, floor_plan: FloorPlan, robot: RobotSpec, rules: Rules = Rules()) -> None:
@@ -40,8 +40,8 @@ class MissionMaker:
         """Choose or check the start pose and the command of an episode.
 
         Args:
-            request: what is asked for.
-            rng: draws what is not.
+            request: the request of the episode.
+            rng: draws the values that are not requested.
 
         Raises:
             ValueError: the pose is not free, or the command is not understood or not feasible.
@@ -108,7 +108,7 @@ class MissionMaker:
         )
 
     def _objection(self, command: Command, start: Pose) -> str:
-        """Why a command cannot be carried out from there; empty if it can."""
+        """The reason why a command cannot be carried out from a pose; empty if it can."""
         try:
             guide = RoomGuide(self.floor_plan, command, self.geodesic)
             plan_goals(self.floor_plan, command, start, guide, self.rules)

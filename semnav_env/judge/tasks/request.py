@@ -1,4 +1,4 @@
-"""What an episode is asked to be; what is not asked for is drawn."""
+"""The request of an episode; values that are not requested are drawn."""
 
 from __future__ import annotations
 
@@ -20,28 +20,29 @@ if TYPE_CHECKING:
     from semnav_env.judge.episodes.episode import Episode
 
 LARGEST_HEADING = 2.0 * math.tau
-"""A larger heading must be degrees, not radians that nobody wrapped; radians."""
+"""Largest accepted heading, radians; a larger number must be degrees."""
 
 
 @dataclass(frozen=True)
 class EpisodeRequest:
-    """What an episode is asked to be. `None` stands for what is to be drawn, or for the usual one.
+    """The request of an episode; None stands for a value that is drawn, or for the default.
 
     Attributes:
         command: text or `Command`.
-        language: of the text; None to recognise it.
-        ask: asks a person what is meant where the text leaves it open, such as `input`.
-        implicit_steps: whether to do what goes without saying, such as leaving the room first.
+        language: language of the text; None to recognise it.
+        ask: function that asks a person about an ambiguous text, such as `input`.
+        implicit_steps: whether to add implicit steps, such as leaving the room first.
         pose: start of the robot's centre (x, y, heading), world frame.
         floor_plan: a bundled name, a path or a `FloorPlan`.
-        episode: an `Episode`, or the id of one that the environment draws from; it says all that
-            stands above by itself.
+        episode: an `Episode`, or the id of one that the environment draws from; it replaces all
+            fields above.
         robot: the body of this episode; it must have the action space of the environment.
-        lidar: of this episode; it must have the beams, the range and the rate of the environment.
-        odometry: how dead reckoning errs in this episode.
+        lidar: the lidar of this episode; it must have the beams, the range and the rate of the
+            environment.
+        odometry: errors of dead reckoning in this episode.
         feasible: whether the command must be one that can be carried out.
-        episode_id: of the episode that all this was taken from; empty if there is none.
-        words: in which the command of that episode was said; empty if there is none.
+        episode_id: id of the frozen episode of the request; empty if there is none.
+        words: the words of that episode's command; empty if there is none.
     """
 
     command: str | Command | None = None
@@ -60,7 +61,7 @@ class EpisodeRequest:
 
     @classmethod
     def from_options(cls, options: dict[str, Any] | None) -> EpisodeRequest | None:
-        """The options of `reset` as a request; None where nothing is asked for.
+        """Turn the options of `reset` into a request; None if there are no options.
 
         Raises:
             ValueError: no dictionary, an option that is unknown, one beside an episode that has its
@@ -83,19 +84,19 @@ class EpisodeRequest:
 
     @property
     def info(self) -> dict[str, Any]:
-        """What `reset` says of the request, for `info`."""
+        """Entries of `info` of `reset` about the request."""
         told = {"episode_id": self.episode_id, "instruction": self.instruction}
         return {name: value for name, value in told.items() if value}
 
     @property
     def instruction(self) -> str:
-        """The command in the words in which it was said; empty if none is asked for."""
+        """The words of the command as they were said; empty if no command is requested."""
         if isinstance(self.command, Command):
             return self.words or self.command.say(self.language or "en")
         return self.command or ""
 
     def checked_command(self, rooms: tuple[str, ...]) -> Command | None:
-        """The command, if one is asked for.
+        """The command, if one is requested.
 
         Args:
             rooms: names of the rooms of the floor plan.
@@ -115,7 +116,7 @@ class EpisodeRequest:
         raise ValueError(f"a command is text or a Command, not {type(given).__name__}")
 
     def checked_pose(self) -> Pose | None:
-        """The start pose, if one is asked for.
+        """The start pose, if one is requested.
 
         Raises:
             ValueError: not three numbers, or a heading in degrees.

@@ -22,17 +22,17 @@ if TYPE_CHECKING:
 
 
 class Tick(NamedTuple):
-    """What a reward may depend on: one control period as it was judged.
+    """The values that a reward may depend on: one control period, as the judge saw it.
 
     Attributes:
-        progress: by how much the shortest way to the active clause's goal got shorter, metres.
+        progress: decrease of the shortest path to the active clause's goal, metres.
         clause: whether a clause was completed.
         success: whether the whole command was completed.
-        failure: whether the episode failed, but for running out of time.
+        failure: whether the episode failed, except by running out of time.
         motion: true pose, speed and contact.
-        belief: what the robot believes now.
-        action: that the agent gave, as it gave it.
-        payload: that the robot carries; None without one.
+        belief: the robot's present belief.
+        action: the action of the agent, unchanged.
+        payload: the payload of the robot; None without one.
     """
 
     progress: float
@@ -47,7 +47,7 @@ class Tick(NamedTuple):
 
 @runtime_checkable
 class Rewards(Protocol):
-    """Says what a step is worth."""
+    """Computes the reward terms of a step."""
 
     def terms(self, tick: Tick) -> dict[str, float]:
         """The terms of a step by name; their sum is the reward."""
@@ -62,18 +62,20 @@ RewardTerm = Callable[[Tick], float]
 
 @dataclass(frozen=True)
 class RewardWeights:
-    """The rewards of `SemNav-v0`: what each term is worth.
+    """The rewards of `SemNav-v0`: the weight of each term.
 
     Attributes:
-        progress: per metre by which the shortest way to the active clause's goal gets shorter.
-        clause: for each clause carried out.
-        success: once, for the whole command.
-        failure: once, for a wrong door, a wrong turn, an incomplete clause or stopping short.
-        contact: per step in contact.
-        time: per step.
+        progress: weight of each metre by which the shortest path to the active clause's goal gets
+            shorter.
+        clause: weight of each clause carried out.
+        success: weight of the whole command, once.
+        failure: weight of a wrong door, a wrong turn, an incomplete clause or stopping short,
+            once.
+        contact: weight of each step in contact.
+        time: weight of each step.
 
     Raises:
-        ValueError: a weight is no number, not finite or too large; names it.
+        ValueError: a weight is not a number, not finite or too large; names it.
     """
 
     progress: Weight = 1.0
@@ -110,16 +112,17 @@ def weigh(
     *,
     driven: Any = 1,
 ) -> dict[str, Any]:
-    """The terms by name: each weight times what it is the weight of, see `RewardWeights`.
+    """Compute the terms by name: each weight times its value, see `RewardWeights`.
 
     Args:
-        weights: in the order of `TERMS`. For many robots each is an array, and so are the others.
-        progress: in metres, see `Tick`, like the next three.
+        weights: weights in the order of `TERMS`. For many robots, each weight and each other
+            argument is an array.
+        progress: metres, see `Tick`, like the next three arguments.
         clause: whether a clause was completed.
         success: whether the whole command was completed.
         failure: whether the episode failed.
         in_contact: whether the body touches anything.
-        driven: whether the robot was driven, which takes time.
+        driven: whether the robot was driven in this step; only then the term `time` counts.
     """
     amounts = progress, clause, success, failure, in_contact, driven
     weighed = map(mul, weights, amounts)
@@ -127,7 +130,7 @@ def weigh(
 
 
 def terms_of(rewards: Rewards, tick: Tick) -> dict[str, float]:
-    """The terms of a step, of rewards that may give anything; a `ValueError` names no number."""
+    """The terms of a step, checked; a `ValueError` names a term that is not a number."""
     terms = rewards.terms(tick)
     for name, value in terms.items():
         if not isinstance(value, Real | np.bool_) or not math.isfinite(value):
@@ -136,7 +139,7 @@ def terms_of(rewards: Rewards, tick: Tick) -> dict[str, float]:
 
 
 def as_rewards(value: object) -> Rewards:
-    """What `rewards=` takes, as it is.
+    """Check an argument `rewards=` and return it unchanged.
 
     Raises:
         ValueError: an object without `terms(tick)`.

@@ -1,4 +1,4 @@
-"""Random commands that make sense where the robot stands."""
+"""Random commands that can be carried out from the robot's pose."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from semnav_features.frames import Pose
 from semnav_features.scene import StillScene
 
 ALONG, TO_END = Follow(), Follow(PlaceReference(Place.END))
-"""Clauses that are drawn: go down the corridor, and do so to its end."""
+"""Two clauses that are drawn: go down the corridor, and go down the corridor to its end."""
 
 TURNS = [
     [
@@ -40,7 +40,7 @@ TURNS = [
     ]
     for turning in (Turning.LEFT, Turning.RIGHT)
 ]
-"""Turns that are drawn, by side, place and ordinal; what stands twice is drawn twice as often."""
+"""Turns that are drawn, by side, place and ordinal; an entry may occur twice to be more likely."""
 
 DOORS = [
     [
@@ -49,13 +49,13 @@ DOORS = [
     ]
     for side in (Side.LEFT, Side.RIGHT)
 ]
-"""Doors that are drawn, likewise by side and ordinal, and whether to stop before them."""
+"""Doors that are drawn, by side, ordinal, and whether to stop before them."""
 
-TRIES = 50
-"""Commands drawn before a start pose is given up."""
+MAX_COMMAND_DRAWS = 50
+"""Largest number of commands drawn before a start pose is given up."""
 
-SPACE = 0.3
-"""Around a place to go to, metres."""
+GOAL_CLEARANCE = 0.3
+"""Free radius that is needed around a goal, metres."""
 
 
 def sample_mission(
@@ -69,11 +69,11 @@ def sample_mission(
     """A random command of one to `most_clauses` clauses that can be carried out from `start`.
 
     Returns:
-        None if `TRIES` draws found none.
+        None if `MAX_COMMAND_DRAWS` draws found none.
     """
     scene = floor_plan.scene_by(rules.door)
     corridor = corridor_at(scene, start)
-    for _ in range(TRIES):
+    for _ in range(MAX_COMMAND_DRAWS):
         clauses = _draw(rng, most_clauses)
         first = clauses[1] if clauses[0] is ALONG else clauses[0]
         if leads_nowhere(first, scene, corridor, rules.grounding):
@@ -92,7 +92,7 @@ def leads_nowhere(
 ) -> bool:
     """Whether a corridor has too few doors or junctions for the first clause of a command.
 
-    Grounding would say so, too; but most commands that are drawn fail here, and it takes longer.
+    Grounding would also find this, but takes longer, and most drawn commands fail here.
     """
     match clause:
         case Turn(turning, PlaceReference(place, ordinal)):
@@ -105,8 +105,8 @@ def leads_nowhere(
 
 
 def _has_space(floor_plan: FloorPlan, goal: Goal) -> bool:
-    """Whether no desk stands where a robot is told to be: at the end of a lounge, say."""
-    return not isinstance(goal, ReachGoal) or is_clear(floor_plan, goal.pose[:2], SPACE)
+    """Whether a goal is free of furniture, such as a desk at the end of a lounge."""
+    return not isinstance(goal, ReachGoal) or is_clear(floor_plan, goal.pose[:2], GOAL_CLEARANCE)
 
 
 def _draw(rng: np.random.Generator, most_clauses: int) -> tuple[Clause, ...]:

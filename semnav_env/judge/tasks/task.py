@@ -1,4 +1,4 @@
-"""What episodes are about: a task says what the next one is asked to be."""
+"""A task gives the request of the next episode."""
 
 from __future__ import annotations
 
@@ -18,23 +18,23 @@ _T = TypeVar("_T")
 
 @runtime_checkable
 class Task(Protocol):
-    """Says what the next episode is asked to be, where `reset` is not told."""
+    """Gives the request of the next episode, if `reset` has no options."""
 
     def request(self, rng: np.random.Generator) -> EpisodeRequest:
-        """What the next episode is asked to be.
+        """The request of the next episode.
 
         Args:
-            rng: of the environment; the only source of chance.
+            rng: random generator of the environment; the only source of randomness.
         """
         ...
 
 
 @runtime_checkable
 class AdaptiveTask(Task, Protocol):
-    """A task that learns how its episodes end, as a curriculum does."""
+    """A task that is told how its episodes end, such as a curriculum."""
 
     def note(self, success: bool) -> None:
-        """An episode that it asked for has ended."""
+        """Note that an episode of this task has ended."""
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,9 @@ class CommandTask:
     """Draws a command and a floor plan from lists.
 
     Attributes:
-        commands: texts or `Command`s to draw from; any that can be carried out if empty.
-        floor_plans: names, paths or plans to draw from; the environment's if empty.
-        language: of the texts; None to recognise it.
+        commands: texts or `Command`s to draw from; if empty, any that can be carried out.
+        floor_plans: names, paths or plans to draw from; if empty, the environment's plan.
+        language: language of the texts; None to recognise it.
     """
 
     commands: Sequence[str | Command] = ()
@@ -62,18 +62,18 @@ class SampledTask:
     """Calls a function for each episode.
 
     Attributes:
-        sample: from the generator of the environment to a request.
+        sample: function from the random generator of the environment to a request.
     """
 
     sample: Callable[[np.random.Generator], EpisodeRequest]
 
     def request(self, rng: np.random.Generator) -> EpisodeRequest:
-        """What the function says."""
+        """The result of the function."""
         return self.sample(rng)
 
 
 def as_task(value: object) -> Task:
-    """A task from what `task=` takes.
+    """Make a task from an argument `task=`.
 
     Args:
         value: a task; a command, or a list of commands; a function from a generator to an

@@ -1,4 +1,4 @@
-"""Tasks made of tasks: a curriculum, and another body or other sensors in each episode."""
+"""Tasks made of other tasks: a curriculum, and a randomised robot for each episode."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ from semnav_features.lidar_spec import LidarSpec, lidar_spec
 _T = TypeVar("_T")
 
 MOST_UNHEARD = 1000
-"""A curriculum that was asked for more episodes, and heard of no end, warns: more than there are
-environments that share it."""
+"""Number of requested episodes without a reported end after which a curriculum warns; it is larger
+than the number of environments that may share it."""
 
 
 class Curriculum:
-    """Goes on to the next task when the last episodes of one have succeeded often enough.
+    """Moves on to the next task when enough of the last episodes of a task have succeeded.
 
     Args:
-        tasks: in order; each is what `task=` takes.
+        tasks: tasks in their order, each as for `task=`.
         promotion: share of the last episodes that must succeed.
-        window: how many episodes that share is taken of.
+        window: number of episodes from which this share is computed.
 
     Attributes:
-        stage: index of the task under way.
+        stage: index of the current task.
 
     Raises:
         ValueError: no tasks, a share outside [0, 1], or a window below 1.
@@ -49,11 +49,11 @@ class Curriculum:
         self._ended: deque[bool] = deque(maxlen=window)
 
     def request(self, rng: np.random.Generator) -> EpisodeRequest:
-        """What the task under way asks for."""
+        """The request of the current task."""
         self._unheard += 1
         if self._unheard == MOST_UNHEARD + 1:
             warnings.warn(
-                f"a curriculum was asked for {MOST_UNHEARD} episodes and heard of no end; where a "
+                f"a curriculum has given {MOST_UNHEARD} episodes and was told of no end; if a "
                 "TimeLimit cuts them off, give max_seconds= in place of max_episode_steps=",
                 RuntimeWarning,
                 stacklevel=2,
@@ -61,7 +61,7 @@ class Curriculum:
         return self._tasks[self.stage].request(rng)
 
     def note(self, success: bool) -> None:
-        """Count an episode, and go on to the next task if it is time."""
+        """Count an episode, and move on to the next task if enough episodes succeeded."""
         self._unheard = 0
         _pass_on(self._tasks[self.stage], success)
         self._ended.append(success)
@@ -76,7 +76,7 @@ class RandomisedRobot:
     """Draws body, lidar and odometry for each episode of a task.
 
     Args:
-        task: what `task=` takes.
+        task: a task, as for `task=`.
         robots: bodies to draw from, with the action space of the environment's.
         lidars: lidars to draw from, with the beams, range and rate of the environment's.
         odometry: errors of odometry to draw from.
@@ -95,7 +95,7 @@ class RandomisedRobot:
         self._odometry = tuple(odometry)
 
     def request(self, rng: np.random.Generator) -> EpisodeRequest:
-        """What the task asks for, with a robot that is drawn."""
+        """The request of the task, with a drawn robot."""
         request = self._task.request(rng)
         return replace(
             request,

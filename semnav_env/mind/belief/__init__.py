@@ -1,6 +1,6 @@
-"""The robot's side: what a robot believes, from its ranges, its odometry and its bumps.
+"""The belief of a robot, made from its ranges, its odometry and its bumps.
 
-It needs features, commands and grounding, and no simulator.
+This package needs features, commands and grounding, but no simulator.
 """
 
 from semnav_env.mind.belief.belief import Belief

@@ -1,4 +1,4 @@
-"""When a clause is worth grounding anew: grounding at every scan would cost too much."""
+"""Decides when to ground a clause again, because grounding at every scan would cost too much."""
 
 from __future__ import annotations
 
@@ -9,25 +9,24 @@ from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.memory import how_many_count
 
 MAX_TRAVEL, MAX_HEADING_CHANGE = 1.5, 0.5
-"""A look is due when the robot has moved or turned by more since the last one, metres and
-radians."""
+"""Motion since the last grounding after which a clause is grounded again, metres and radians."""
 
 DOOR_CHECK_PERIOD = 5
-"""Every so many scans a look is due if other doors count by then."""
+"""Period of re-grounding when the doors that count have changed, scans."""
 
 REST_CHECK_SCANS, LEAST_TRAVEL = 30, 0.2
-"""After so many scans a look is due if other walls count or the robot has moved, by more than this,
-metres."""
+"""Period of re-grounding when the walls that count have changed or the robot has moved, scans, and
+the least distance that counts as moved, metres."""
 
 FIRST_COUNTING_SCAN = 3
-"""Number of the scan from which the first features count, see `SceneMemory`."""
+"""Number of the scan from which on the first features count, see `SceneMemory`."""
 
 
 @kernel
 def is_look_due(estimate: Any, remembered: Any) -> bool:
-    """Whether to ground the clause anew.
+    """Whether to ground the clause again.
 
-    Counting what is remembered takes time; it is done only where it matters.
+    Counting the remembered features takes time, so this is done only where it matters.
 
     Args:
         estimate: an entry of dtype `ESTIMATE`.

@@ -1,4 +1,4 @@
-"""What a robot believes after a scan."""
+"""The belief of a robot after a scan."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from semnav_features.scene import Scene
 
 
 class SceneSource(Protocol):
-    """Makes a scene when it is asked for, because few beliefs are asked."""
+    """Makes a scene on request, because few beliefs are asked for their scene."""
 
     def scene(self) -> Scene:
         """All walls and doors that count."""
@@ -18,19 +18,19 @@ class SceneSource(Protocol):
 
 
 class Belief(NamedTuple):
-    """What a robot believes after a scan, in the odometry frame.
+    """The belief of a robot after a scan, in the odom frame.
 
-    The origin of the odometry frame is where odometry was zero, as a rule the start.
+    The origin of the odom frame is the pose at which odometry was zero, as a rule the start.
 
     Attributes:
-        pose: of the robot's centre.
-        velocity: of the robot, as odometry gives it.
-        clause: index of the clause under way; the number of clauses when all are done.
-        goal: where that clause leads.
-        target: where to drive now: the goal, or a place on the way while the known way is long; the
-            entry "goal" of the observation.
-        impossible: why the clause cannot be carried out; None if it can.
-        memory: what `scene` is made of.
+        pose: pose of the robot's centre.
+        velocity: velocity of the robot by odometry.
+        clause: index of the active clause; the number of clauses when all are done.
+        goal: goal of that clause.
+        target: the goal to drive to now: the goal of the clause, or a place on a known way that is
+            still long; the entry "goal" of the observation.
+        impossible: reason why the clause cannot be carried out; None if it can.
+        memory: the source of `scene`.
     """
 
     pose: Pose
@@ -43,11 +43,11 @@ class Belief(NamedTuple):
 
     @property
     def scene(self) -> Scene:
-        """The remembered walls and doors that count, and the walls that were bumped into."""
+        """The remembered walls and doors that count, and the walls of the bump map."""
         return self.memory.scene()
 
     @property
     def reasons(self) -> tuple[str, ...]:
-        """What the goal was understood from; after it, why the clause cannot be carried out."""
+        """The reason for the goal, followed by why the clause is impossible, if it is."""
         goal = (self.goal.because,)
         return goal if self.impossible in (None, *goal) else (*goal, str(self.impossible))

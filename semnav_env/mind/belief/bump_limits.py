@@ -1,28 +1,29 @@
-"""When a contact tells of a wall that the lidar does not see."""
+"""Limits that decide when a contact shows a wall that the lidar does not see."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 MOST_PIECES = 16
-"""When so many pieces are known, a new one replaces the oldest."""
+"""Largest number of pieces; a further piece replaces the oldest one."""
 
 
 @dataclass(frozen=True)
 class BumpLimits:
-    """What a contact tells.
+    """Limits of the bump map.
 
     Attributes:
-        piece_length: length of wall that one contact tells of, metres.
+        piece_length: length of wall that is assumed for one contact, metres.
         least_growth: a contact is new if it makes a known piece longer by this, metres.
-        piece_gap: pieces nearer to one another are one, metres: no robot gets between them.
+        piece_gap: pieces with a smaller gap are joined, metres: no robot fits between them.
         line_offset: largest distance of two pieces from one line, metres: odometry drifts.
         line_slope: largest slope between two pieces on one line, as a tangent.
-        look_depth: the place to look for is this far inside what was touched, metres.
-        seen_depth: it is seen if a beam ends at most this far behind that place, metres.
-        seen_beams: beams to each side that are asked as well.
-        opening_overlap: a piece this far inside the opening of a door shows that it is no door,
+        look_depth: depth inside the touched object of the point that is looked for in the scan,
             metres.
+        seen_depth: the object is seen if a beam ends at most this far behind that point, metres.
+        seen_beams: number of neighbouring beams to each side that are checked as well.
+        opening_overlap: overlap of a piece with the opening of a door at which the door does not
+            count, metres.
     """
 
     piece_length: float = 0.2

@@ -1,4 +1,4 @@
-"""Walls that a robot has bumped into without seeing them: glass, and what no beam looks at."""
+"""Walls that a robot bumped into unseen: glass, and walls outside the field of view."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from semnav_features.scene import Door, PlainWalls, Scene, ends_of
 
 
 class BumpMap:
-    """Pieces of walls that were bumped into, in the odometry frame.
+    """Pieces of walls that the robot bumped into, in the odom frame.
 
-    A contact makes a piece where the lidar sees through it or does not look. A piece is forgotten
-    when the robot's centre passes through it, which shows that it was an error.
+    A contact makes a piece where the lidar sees through it, or where no beam points. A piece is
+    forgotten when the robot's centre passes through it, which shows that it was an error.
 
     Args:
         spec: the lidar.
@@ -46,7 +46,7 @@ class BumpMap:
 
     @property
     def arrays(self) -> Bumps:
-        """What is known, as compiled code takes and changes it."""
+        """The pieces in the form that compiled code takes and changes."""
         return self._ends, self._used
 
     def clear(self) -> None:
@@ -54,13 +54,13 @@ class BumpMap:
         self._used[0] = 0
 
     def copy(self) -> BumpMap:
-        """What is known now, unchanged by later contacts."""
+        """A copy of the present pieces, unchanged by later contacts."""
         copy = BumpMap(self._spec, self._mount)
         copy._ends[:], copy._used[:] = self._ends, self._used
         return copy
 
     def note(self, contacts: Sequence[Contact], ranges: FloatArray, pose: Pose) -> bool:
-        """Take in the contacts of one step; returns whether something new is known.
+        """Add the contacts of one step; returns whether a piece was added or changed.
 
         Args:
             contacts: of the robot, robot frame; the first `MOST_CONTACTS` count.
@@ -71,11 +71,11 @@ class BumpMap:
         return bool(note_contacts(self.arrays, felt, ranges, self._spec.sensor, self._mount, pose))
 
     def pass_on(self, before: Pose, after: Pose) -> None:
-        """Forget what the robot's centre goes through from one pose to the next, odometry frame."""
+        """Forget pieces that the robot's centre crosses between two poses, odom frame."""
         forget_passed(self.arrays, before, after)
 
     def join(self, scene: Scene) -> Scene:
-        """A scene of the odometry frame with these walls, and without the doors that they bar."""
+        """Return a scene of the odom frame with these walls, without the doors that they block."""
         if not len(self):
             return scene
         pieces = [(x1, y1, x2, y2) for x1, y1, x2, y2 in self.ends.tolist()]

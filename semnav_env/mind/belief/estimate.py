@@ -1,4 +1,4 @@
-"""What a robot estimates, as kernels take it: a record that is read and written at every scan."""
+"""The state estimate of a robot as a record, which kernels read and write at every scan."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def pose_in(field: FloatArray) -> Pose:
 
 
 def mean_velocity(estimate: Any, after: Pose, seconds: float) -> Twist:
-    """The mean velocity since the last scan, in the robot frame then; 0 at the first scan.
+    """Mean velocity since the last scan, in the robot frame at that scan; 0 at the first scan.
 
     Args:
         estimate: an entry of dtype `ESTIMATE`.

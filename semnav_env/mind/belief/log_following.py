@@ -1,4 +1,4 @@
-"""A command followed on a recorded log: what the robot would have believed at every scan."""
+"""Follows a command on a recorded log: the belief that the robot would have had at every scan."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from semnav_features.mapping.matched_log import matched
 from semnav_features.readers import LogError, LogRecord
 
 PoseChoice: TypeAlias = Literal["log", "odometry", "match"]
-"""Where the poses of a robot come from: the log's own, its wheels, or its scans."""
+"""Source of a robot's poses: the poses of the log, its odometry, or its scans."""
 
 
 def follow_log(
@@ -31,25 +31,25 @@ def follow_log(
     poses: PoseChoice | None = None,
     matcher: ScanOdometry | None = None,
 ) -> Iterator[tuple[LogRecord, Belief]]:
-    """The records of a log, each with the belief after it.
+    """Yield the records of a log, each with the belief after it.
 
-    The odometry frame begins at the first record that says where it was taken; those before it
-    are passed over, as a bag may begin with scans.
+    The origin of the odom frame is the pose of the first record with a pose. Records before it are
+    skipped, because a bag may begin with scans.
 
     Args:
         records: of a log, in order.
-        command: that the robot is told at the beginning.
-        ways: to the named rooms of the command, see `BeliefTracker.begin`.
+        command: the command of the robot.
+        ways: ways to the named rooms of the command, see `BeliefTracker.begin`.
         mount: pose of the lidar in the robot frame.
         extractor: limits of the feature extractor.
         corrects_drift: whether walls that are seen again correct the odometry.
         poses: "odometry" takes the odometry of all records, "log" their poses, and "match" matches
-            each scan with the earlier ones; None takes what the first record has, odometry before
-            poses: the two may have been counted from different places.
-        matcher: by which scans are matched, before its first; one of its own if None.
+            each scan with the earlier ones. None decides by the first record and prefers odometry;
+            the two are not mixed, because they may have different origins.
+        matcher: the scan odometry for "match", without a scan so far; a new one if None.
 
     Raises:
-        LogError: a record does not say where it was taken, or scans of several lidars are mixed.
+        LogError: a record has no pose, or scans of several lidars are mixed.
     """
     if poses == "match":
         placed = _matched(records, matcher or ScanOdometry(), mount)
@@ -75,11 +75,11 @@ def follow_log(
 
 
 def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:
-    """The lidar that takes such scans; beams beyond a full turn are left out.
+    """The specification of the lidar of a scan; beams beyond a full turn are left out.
 
     Args:
-        scan: of that lidar.
-        rate_hz: sweeps per second, where the log has no times.
+        scan: a scan of that lidar.
+        rate_hz: scans per second, if the log has no times.
     """
     return LidarSpec(
         "log",
@@ -93,10 +93,10 @@ def lidar_of(scan: Scan, rate_hz: float = 15.0) -> LidarSpec:
 
 
 def _check_directions(record: LogRecord, lidar: LidarSpec) -> None:
-    """Refuse a scan whose first or last beam points elsewhere than that of the first scan.
+    """Refuse a scan whose first or last beam has another direction than in the first scan.
 
     Raises:
-        LogError: by more than the angle between two beams.
+        LogError: the directions differ by more than the angle between two beams.
     """
     scan, step = record.scan, lidar.angle_increment
     turned = wrap_angle(scan.angle_min - lidar.angle_min)
@@ -120,7 +120,7 @@ def _matched(
 def _as_recorded(
     records: Iterable[LogRecord], mount: Pose, poses: Literal["log", "odometry"] | None
 ) -> Iterator[tuple[LogRecord, Pose]]:
-    """The records from the first one that says where it was taken, with poses of the robot."""
+    """The records from the first one with a pose on, with poses of the robot."""
     lost: LogRecord | None = None
     remaining = iter(records)
     for record in remaining:
@@ -135,7 +135,7 @@ def _as_recorded(
 
 
 def _source_of(record: LogRecord, chosen: PoseChoice | None) -> PoseChoice | None:
-    """Where the poses of a log with such a first record come from; None if it has none."""
+    """Source of the poses of a log with this first record; None if it has no pose."""
     if chosen != "log" and record.odometry is not None:
         return "odometry"
     return "log" if chosen != "odometry" and record.pose is not None else None
@@ -152,7 +152,7 @@ def _robot_pose(record: LogRecord, mount: Pose, by_odometry: bool) -> Pose:
 
 
 def _elapsed(before: float | None, now: float | None) -> float | None:
-    """Seconds between two stamps; None where they do not tell."""
+    """Seconds between two stamps; None if they do not determine it."""
     if before is None or now is None or not now > before:
         return None
     return now - before

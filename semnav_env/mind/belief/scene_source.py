@@ -1,4 +1,4 @@
-"""What the scene of a belief is made of: a known scene, or what a robot remembers."""
+"""Sources of the scene of a belief: a known scene, or the robot's memory."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ class KnownScene(NamedTuple):
 
 
 class RememberedScene:
-    """What a robot remembers at one moment: its memory itself, and a copy once it goes on.
+    """The robot's memory at one moment, copied only if the belief is used beyond the next scan.
 
-    Most beliefs are let go before the next scan; copying for these would cost a tenth of a scan.
+    Most beliefs are dropped before the next scan; copying for these would cost a tenth of a scan.
 
     Args:
         memory: walls and doors.
-        bumps: walls that were bumped into.
+        bumps: the bump map.
     """
 
     __slots__ = ("__weakref__", "_bumps", "_memory")
@@ -35,13 +35,13 @@ class RememberedScene:
         self._memory, self._bumps = memory, bumps
 
     def keep(self) -> None:
-        """Copy what is remembered, because the robot goes on."""
+        """Copy the memory before the next scan changes it."""
         self._memory, self._bumps = self._memory.copy(), self._bumps.copy()
 
     def scene(self) -> Scene:
-        """All walls and doors that count, and the walls that were bumped into."""
+        """All walls and doors that count, and the walls of the bump map."""
         return self._bumps.join(self._memory.scene())
 
 
 def nothing() -> None:
-    """Stands for a weak reference to what is gone."""
+    """Stands for a weak reference to a dropped object."""

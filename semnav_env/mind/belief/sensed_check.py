@@ -1,4 +1,4 @@
-"""Checks what a real robot hands to the belief; a simulated one needs no check."""
+"""Checks the input of a real robot; that of a simulated robot needs no check."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def checked_ranges(ranges: ArrayLike, beams: int, lidar: str) -> np.ndarray:
     """The ranges of a scan as an array.
 
     Raises:
-        ValueError: another number of them, or what is no real number.
+        ValueError: another number of ranges, or a value that is not a real number.
     """
     array = np.asarray(ranges)
     if array.shape != (beams,):
@@ -25,7 +25,7 @@ def checked_ranges(ranges: ArrayLike, beams: int, lidar: str) -> np.ndarray:
 
 
 def check_sensed(odometry: object, velocity: object, bumps: object, seconds: object) -> None:
-    """Check what comes with a scan; see `BeliefTracker.update`.
+    """Check the values that come with a scan; see `BeliefTracker.update`.
 
     Raises:
         ValueError: three numbers that are not finite, or a time that is not above 0; names it.

@@ -1,4 +1,4 @@
-"""The ways to named rooms that a robot was told, as arrays that kernels take."""
+"""The told ways to named rooms, as arrays for kernels."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ each are used. Metres, odometry frame; the clause is the number of the one that 
 
 
 class ToldWays:
-    """What the robot was told before it began to drive; it does not change while it drives."""
+    """The ways that the robot was told before driving; they do not change while it drives."""
 
     def __init__(self) -> None:
         self._places, self._doors = np.zeros((TOLD_PLACES, 3)), np.zeros((TOLD_DOORS, 5))
@@ -34,7 +34,7 @@ class ToldWays:
         return self._places, self._doors, self._used
 
     def tell(self, ways: Mapping[int, Way]) -> None:
-        """Take in the ways of a command, by the number of the clause, odometry frame."""
+        """Set the ways of a command, by the number of the clause, odom frame."""
         told = sorted(ways.items())
         places = [(clause, *place) for clause, way in told for place in way.places]
         doors = [

@@ -1,4 +1,4 @@
-"""Grounding: what a clause refers to in a scene, and how far the robot is in following it.
+"""Grounding: the referent of a clause in a scene, and the robot's progress in the clause.
 
 Calls go one way: a `Follower` has the active clause grounded (`ground`, `conditions`), goals are
 made (`goals`, `corridor_goals`) of what is found (`find`), and finding asks what there is in a

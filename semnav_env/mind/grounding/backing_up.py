@@ -50,7 +50,7 @@ def backing_up_goal(clause: BackUp, situation: Situation) -> ReachGoal:
 
 
 def room_behind(scene: Scene, pose: Pose) -> float:
-    """How far behind a pose the nearest wall in the robot's lane is, metres; inf without one."""
+    """Distance to the nearest wall in the robot's lane behind a pose, metres; inf if none."""
     ends = known_ends(scene.walls)
     dx, dy = ends[:, 0::2] - pose[0], ends[:, 1::2] - pose[1]
     c, s = math.cos(pose[2]), math.sin(pose[2])

@@ -1,4 +1,4 @@
-"""The doors behind a robot, and the one that it has come by; few commands speak of them."""
+"""The doors behind a robot, and the door by which it came; few commands name them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from semnav_features.scene import Scene
 
 
 def doors_behind(situation: Situation) -> tuple[Sequence[CountedDoor], bool]:
-    """The doors behind a robot, in order, and whether there may be more farther on.
+    """The doors behind a robot, in order, and whether there may be more farther along.
 
     Behind a robot that stands in a doorway is only that door. In a room, which is wider than any
     corridor, those in view are meant that lie more behind than beside, the one most nearly straight
@@ -45,9 +45,9 @@ def doors_behind(situation: Situation) -> tuple[Sequence[CountedDoor], bool]:
 
 
 def doors_straight_ahead(scene: Scene, pose: Pose, rules: GroundingRules) -> list[CountedDoor]:
-    """The doors in view that lie more ahead of a turned pose than beside it: those behind a robot.
+    """The doors in view that lie more ahead of a turned pose than beside it.
 
-    They are ordered not along a corridor but by their angle off straight ahead.
+    They are the doors behind the robot, ordered by their angle from straight ahead.
     """
     seen = ((bearing(pose, door), door) for door in doors_around(scene, pose, rules=rules))
     return [
@@ -60,13 +60,13 @@ def doors_straight_ahead(scene: Scene, pose: Pose, rules: GroundingRules) -> lis
 
 
 def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:
-    """The door of "leave the room": the doorway that the robot has just come by.
+    """The door of "leave the room": the doorway by which the robot has just come.
 
-    A robot that has not come by one leaves by the only door in view. Where not everything has been
-    seen it takes the most open one, and looks for one if none is open.
+    A robot that has not come through a door leaves by the only door in view. Where not everything
+    has been seen, it takes the most open door, and searches for one if none is open.
 
     Raises:
-        UnclearError: there is none, or there are several.
+        UnclearError: there is no door, or there are several.
     """
     scene, begin, rules = situation.scene, situation.begin, situation.rules.grounding
     inward = begin

@@ -1,4 +1,4 @@
-"""Why one clause of a command cannot be grounded."""
+"""The error for one clause of a command that cannot be grounded."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from semnav_env.mind.grounding.errors import GroundingError
 
 
 class ClauseError(GroundingError):
-    """One of the several clauses of a command cannot be carried out; the message names it.
+    """A clause of a command with several clauses cannot be carried out; the message names it.
 
     Args:
         command: the command.
@@ -28,7 +28,7 @@ class ClauseError(GroundingError):
         self._message: str | None = None
 
     def __str__(self) -> str:
-        """The message, worded when it is read: of commands that are drawn at random it is not."""
+        """The message, made only when it is read, because random draws do not need it."""
         if self._message is None:
             clause = self.command.clauses[self.clause]
             words, why = clause.say(language_of(self._language)), self.reason
@@ -38,7 +38,7 @@ class ClauseError(GroundingError):
         return self._message
 
     def in_words_of(self, language: Language) -> ClauseError:
-        """The same error with the clause in the words of a language."""
+        """A copy of the error with the clause in the words of a language."""
         return ClauseError(self.command, self.clause, self.reason, language)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -46,7 +46,7 @@ class ClauseError(GroundingError):
 
 
 def _restored(command: Command, clause: int, reason: str, message: str) -> ClauseError:
-    """A pickled error, with the words in which it was said."""
+    """Restore a pickled error with its words."""
     error = ClauseError(command, clause, reason)
     error._message = message
     return error

@@ -1,4 +1,4 @@
-"""In which order the clauses of a command are done, and what one tells about the next."""
+"""The order in which the clauses of a command are done, and how one clause completes the next."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from semnav_env.language.references import PlaceReference
 
 
 def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int:
-    """The index of the clause to do after this one; beyond the end if there is none.
+    """Index of the clause after this one; beyond the end if there is none.
 
     Args:
-        clauses: of the command.
-        index: of the clause that is done with, or of the condition that is decided.
+        clauses: the clauses of the command.
+        index: index of the clause that is done, or of the condition that is decided.
         met: how the condition was decided; None for another clause.
     """
     clause = clauses[index]
@@ -25,7 +25,7 @@ def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int
 
 
 def in_context(clauses: Sequence[Clause], index: int) -> Clause:
-    """A clause as the one before completes it.
+    """The clause, completed by the one before it.
 
     A left turn after "if there is an intersection" is one at that intersection.
     """
@@ -37,7 +37,7 @@ def in_context(clauses: Sequence[Clause], index: int) -> Clause:
 
 
 def is_only_a_direction(clauses: Sequence[Clause], index: int) -> bool:
-    """Whether a clause is "go down the hallway" and the next one says how far."""
+    """Whether a clause is "go down the hallway" and the next one says where it ends."""
     if clauses[index] != Follow() or index + 1 == len(clauses):
         return False
     if _hangs_on_condition(clauses, index):
@@ -48,9 +48,9 @@ def is_only_a_direction(clauses: Sequence[Clause], index: int) -> bool:
 
 
 def comes_after_corridor(clauses: Sequence[Clause], index: int) -> bool:
-    """Whether a bare turn means the next place that offers it, and not the place where it begins.
+    """Whether a turn without a place is made at the next place that allows it, and not on the spot.
 
-    It does after "go down the hallway" and after "go past the second door".
+    This is so after "go down the hallway" and after "go past the second door".
     """
     if index == 0 or _hangs_on_condition(clauses, index - 1):
         return False  # what hangs on a condition may not have been done
@@ -61,7 +61,7 @@ def comes_after_corridor(clauses: Sequence[Clause], index: int) -> bool:
 
 
 def _hangs_on_condition(clauses: Sequence[Clause], index: int) -> bool:
-    """Whether a clause is one of the two that a condition chooses from."""
+    """Whether a clause is one of the two branches of a condition."""
     then = index > 0 and isinstance(clauses[index - 1], IfThere)
     condition = clauses[index - 2] if index > 1 else None
     return then or (isinstance(condition, IfThere) and condition.otherwise)

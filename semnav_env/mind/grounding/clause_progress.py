@@ -1,7 +1,7 @@
-"""How far a robot is in the clause under way: a record, and the kernel that keeps it.
+"""The robot's progress in the active clause: a record, and the kernel that updates it.
 
-A kernel does what is to be done in every control period and returns events; what an event calls
-for, such as grounding the next clause, a `Follower` does.
+A kernel does the work of every control period and returns events. A `Follower` handles the events,
+for example by grounding the next clause.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from semnav_features.frames import Pose, to_local
 from semnav_features.kernels.compiling import kernel
 
 CLAUSE_DONE, TRAIL_DUE, ON_WAY = 1, 2, 4
-"""Events, as bits: the clause under way is completed; the robot is `WAY_SPACING` from the last
+"""Events, as bits: the current clause is completed; the robot is `WAY_SPACING` from the last
 place of its trail; the goal lies on a known way, so that what to head for changes as one drives."""
 
 NO_TRAIL = math.nan, math.nan
-"""Last place of a trail that nobody keeps: no distance from it is ever large enough to note."""
+"""Last place of a trail that is not kept: no distance from it is ever large enough to note."""
 
 GOAL_RECORD = np.dtype(
     [(name, "f8", size) for name, size in (("pose", 3), ("door", 4), ("tolerances", 3))]
@@ -49,7 +49,7 @@ CLAUSE_PROGRESS = np.dtype(
     + [("ahead", "f8", 3), ("goal", GOAL_RECORD)]
     + [(name, "?") for name in ("is_open", "is_behind", "looked_back")]
 )
-"""How far a robot is in the clause under way; shape (1,). Places are (x, y) in metres, in the frame
+"""How far a robot is in the current clause; shape (1,). Places are (x, y) in metres, in the frame
 of the follower's scene.
 
 Set when a command is begun:
@@ -105,16 +105,16 @@ def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
 
 
 def goal_bytes(record: np.ndarray, field: str) -> memoryview:
-    """Where a record holds a goal, see `put_goal`: to copy it takes a tenth of writing it."""
+    """The bytes of a goal in a record; copying them takes a tenth of the time of `put_goal`."""
     fields: Any = record.dtype.fields
     offset = fields[field][1]
     return record.view(np.uint8).data[offset : offset + GOAL_RECORD.itemsize]
 
 
 def farthest_view(progress: np.ndarray, heading: float) -> Pose:
-    """The farthest place that a robot has come to in the clause under way, and where it looks.
+    """The farthest place that a robot has reached in the active clause, and the heading there.
 
-    What was looked at stays so on coming back.
+    An inspected direction stays inspected when the robot comes back.
 
     Args:
         progress: dtype `CLAUSE_PROGRESS`, shape (1,).
@@ -128,7 +128,7 @@ def farthest_view(progress: np.ndarray, heading: float) -> Pose:
 
 @kernel
 def note_pose(progress: np.ndarray, pose: Pose, speed: float, seconds: float) -> int:
-    """Note where the robot is now; returns events.
+    """Note the robot's pose; returns events.
 
     Args:
         progress: dtype `CLAUSE_PROGRESS`, shape (1,); changed in place.
@@ -156,7 +156,7 @@ def note_pose(progress: np.ndarray, pose: Pose, speed: float, seconds: float) ->
 
 @kernel
 def _is_completed(entry: Any, pose: Pose) -> bool:
-    """Whether coming to a pose completes the clause."""
+    """Whether reaching a pose completes the clause."""
     goal = entry.goal
     there = (goal.pose[0], goal.pose[1], goal.pose[2])
     if goal.kind == _PASS:

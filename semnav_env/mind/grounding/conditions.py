@@ -1,4 +1,4 @@
-"""Whether a condition is met."""
+"""Decides whether a condition is met."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from semnav_env.mind.grounding.situation import Situation
 
 
 def is_met(condition: IfThere, situation: Situation) -> Known[bool] | Searching:
-    """Whether a condition is met, as far as it is known.
+    """Whether a condition is met, as far as this is known.
 
-    What is there is known as soon as it is seen; that nothing is there, at the end of the corridor,
-    or where there can be no more.
+    That something is there is known as soon as it is seen. That nothing is there is known at the
+    end of the corridor, or where there can be no more.
     """
     situation = situation.towards(condition.what)
     if isinstance(condition.what, DoorReference) and condition.what.side is Side.OPPOSITE:
@@ -36,7 +36,7 @@ def is_met(condition: IfThere, situation: Situation) -> Known[bool] | Searching:
 
 
 def _count(what: DoorReference | PlaceReference, situation: Situation) -> tuple[int, bool]:
-    """How many of the kind have been seen so far, and whether there may be more farther on."""
+    """Number of things of this kind seen so far, and whether there may be more farther along."""
     if isinstance(what, DoorReference):
         doors, more = named_doors(what, situation)
         return len(doors), more

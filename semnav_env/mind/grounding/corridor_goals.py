@@ -39,7 +39,7 @@ def turn_goal(clause: Turn, situation: Situation) -> Goal:
 def _into_arm(
     junction: Junction, turning: Turning, because: str, situation: Situation
 ) -> ReachGoal:
-    """Be in the mouth of a junction's arm, looking out along it."""
+    """The goal in the mouth of a junction's arm, facing out along it."""
     corridor = situation.corridor
     rules, accepted = situation.rules.grounding, situation.rules.success
     mouth = mouth_of(junction, turning, corridor, situation.scene, rules)
@@ -82,11 +82,11 @@ def follow_goal(clause: Follow, situation: Situation) -> Goal:
 
 
 def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) -> Goal:
-    """Up to a door or past it.
+    """The goal of following a corridor up to a door or past it.
 
     Raises:
-        UnclearError: it is opposite, across the corridor and not along it; or it is the doorway
-            that the robot stands in.
+        UnclearError: the door is opposite, across the corridor and not along it; or it is the
+            doorway that the robot stands in.
     """
     if until.side is Side.OPPOSITE:
         raise UnclearError(f"{clause}: it lies across; say to go to it, or through it")
@@ -109,7 +109,7 @@ def _where(clause: Follow) -> str:
 
 
 def _distance_along(distance: Distance, situation: Situation) -> float:
-    """How far to go, metres; not beyond the end of the corridor.
+    """Distance to go along the corridor, metres; not beyond its end.
 
     Raises:
         GroundingError: the corridor is known, and shorter.
@@ -123,7 +123,7 @@ def _distance_along(distance: Distance, situation: Situation) -> float:
 
 
 def _go_on(situation: Situation, along: float, where: str, beside: Door | None = None) -> ReachGoal:
-    """Be so far along the corridor, beside a door if one says how far."""
+    """The goal at a distance along the corridor, beside a door if one ends the distance."""
     return ReachGoal(
         situation.corridor.place(along),
         situation.rules.success.corridor_distance,
@@ -134,7 +134,7 @@ def _go_on(situation: Situation, along: float, where: str, beside: Door | None =
 
 
 def _turn_here(turning: Turning, situation: Situation) -> ReachGoal:
-    """Turn where the clause began, or where there is room for it before the doorway there."""
+    """The goal of a turn where the clause began, or outside the doorway if it began in one."""
     rules, accepted = situation.rules.grounding, situation.rules.success
     doorway = doorway_at(situation.scene, situation.begin)
     out = 0.0 if doorway is None else min(rules.doorway_exit, situation.corridor.end / 2)
@@ -151,14 +151,14 @@ def _turn_here(turning: Turning, situation: Situation) -> ReachGoal:
 
 
 def _faces_a_door(situation: Situation) -> bool:
-    """Whether the robot stands right before a door and looks at it."""
+    """Whether the robot stands directly before a door and faces it."""
     rules = situation.rules.grounding
     facing = doors_along(situation.scene, situation.corridor, Side.AHEAD, rules)
     return any(door.along <= rules.faced_door_distance for door in facing)
 
 
 def _turn_by(turning: Turning, degrees: int, situation: Situation) -> ReachGoal:
-    """Turn by an angle where the clause began; only the heading in the end counts."""
+    """The goal of a turn by an angle where the clause began; only the final heading counts."""
     angle, accepted = math.radians(degrees), situation.rules.success
     return ReachGoal(
         compose(situation.begin, (0.0, 0.0, math.copysign(angle, QUARTER_TURNS[turning]))),

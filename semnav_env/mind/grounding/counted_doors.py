@@ -1,4 +1,4 @@
-"""Which doors count, on which side of a corridor and in which order."""
+"""Counts the doors of a corridor: which ones count, on which side and in which order."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ SIDES = (Side.LEFT, Side.RIGHT, Side.AHEAD)
 
 @dataclass(frozen=True, slots=True)
 class CountedDoor:
-    """A door as a reference counts it.
+    """A door that a reference counts.
 
     Attributes:
-        door: in the scene's frame.
-        along: where its middle lies along the corridor's axis, metres.
-        side: on which side of the axis, or ahead, behind or opposite.
-        outward: the heading that leads through it, away from the corridor, scene frame.
-        off: angle off straight behind, radians; only of doors that are ordered by it.
+        door: the door, scene frame.
+        along: position of its middle along the corridor's axis, metres.
+        side: side of the axis, or ahead, behind or opposite.
+        outward: heading through the door, away from the corridor, scene frame, radians.
+        off: angle from straight behind, radians; only for doors that are ordered by it.
     """
 
     door: Door
@@ -39,14 +39,17 @@ class CountedDoor:
     off: float = 0.0
 
     def pose(self, beyond: float) -> Pose:
-        """The pose on the door's axis `beyond` its line (negative: before it), facing outward."""
+        """The pose on the door's axis `beyond` metres behind its line, facing outward.
+
+        A negative `beyond` is before the line.
+        """
         x, y = self.door.midpoint
         c, s = math.cos(self.outward), math.sin(self.outward)
         return x + beyond * c, y + beyond * s, self.outward
 
 
 class _CountedDoors(Sequence[CountedDoor]):
-    """Doors of a scene by rows of `COUNTED`; a `CountedDoor` is made when it is asked for."""
+    """Doors of a scene by rows of `COUNTED`; a `CountedDoor` is made on request."""
 
     def __init__(self, doors: Sequence[Door], rows: list[tuple[float, int, int, float]]) -> None:
         self._doors, self._rows = doors, rows
@@ -75,9 +78,9 @@ def doors_along(
 ) -> Sequence[CountedDoor]:
     """The doors that open onto a corridor ahead of its frame, in the order of travel.
 
-    A door counts while at least half of its opening is still ahead. A door that runs with the
-    corridor belongs to the side it lies on, if a look from the axis to that side meets it; one that
-    runs across the corridor and ends it lies ahead.
+    A door counts while at least half of its opening is still ahead. A door parallel to the corridor
+    belongs to its side, if a ray from the axis to that side meets it. A door across the corridor
+    that ends it lies ahead.
 
     Args:
         scene: the doors, in the frame of the corridor.
@@ -94,7 +97,7 @@ def doors_along(
 
 
 def _known_doors(scene: StillScene, corridor: Corridor, rules: GroundingRules) -> list[CountedDoor]:
-    """The doors on all sides, which are counted once a corridor in a scene that never changes."""
+    """The doors on all sides, counted once for each corridor of a scene that never changes."""
     known, key = scene.known_doors, (corridor, rules)
     if key not in known:
         if len(known) >= MAX_KNOWN_VIEWS:

@@ -1,4 +1,4 @@
-"""Where a step crosses the line of a doorway."""
+"""Finds where a step crosses the line of a doorway."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def first_crossed(doors: FloatArray, x1: float, y1: float, x2: float, y2: float)
 def crossing_share(
     ax: float, ay: float, bx: float, by: float, x1: float, y1: float, x2: float, y2: float
 ) -> float:
-    """Where the step from 1 to 2 crosses the line through a and b: 0 at a, 1 at b; NaN if nowhere.
+    """Place on the line a-b where the step from 1 to 2 crosses it: 0 at a, 1 at b; NaN if nowhere.
 
     `before` and `after` are the cross products of a-b with the step's ends: they change their
     sign where the step changes the side of the line, and are as far from zero as it is from it.

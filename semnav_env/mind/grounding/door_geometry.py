@@ -1,4 +1,4 @@
-"""How doors lie to a pose and to one another."""
+"""Geometry of doors relative to a pose and to each other."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from semnav_features.scene import Door
 
 
 def heading_through(door: Door, about: float) -> float:
-    """The heading at right angles to a door that is nearest to another one, radians."""
+    """The normal of a door that is nearest to a given heading, radians."""
     normal = heading_between(door.start, door.end) + math.pi / 2
     return wrap_angle(normal if math.cos(normal - about) > 0 else normal + math.pi)
 
@@ -20,9 +20,9 @@ def bearing(pose: Pose, door: Door) -> float:
 
 
 def shared_width(door: Door, pose: Pose, half: float) -> float:
-    """How much of a door lies straight ahead of a strip that reaches `half` to both sides, metres.
+    """Overlap of a door with the strip ahead of a pose that reaches `half` to both sides, metres.
 
-    Negative where the door lies beside the strip.
+    The overlap is negative if the door lies beside the strip.
     """
     sides = to_local(pose, door.start)[1], to_local(pose, door.end)[1]
     return min(max(sides), half) - max(min(sides), -half)

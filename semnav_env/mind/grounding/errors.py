@@ -1,4 +1,4 @@
-"""Why a clause cannot be grounded."""
+"""Errors for clauses that cannot be grounded."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ if TYPE_CHECKING:
 
 
 class GroundingError(ValueError):
-    """The referent of a clause cannot be there; the message says what is."""
+    """The referent of a clause cannot be there; the message says what is there."""
 
     def in_words_of(self, language: Language) -> GroundingError:
-        """The same error with the words of the command in a language, where it has such words."""
+        """A copy of the error with any words of the command in the given language."""
         return self
 
 
 class UnclearError(GroundingError):
-    """More must be said: several things fit a clause, or something else is meant by it."""
+    """The clause is not clear: several things fit it, or it needs other words."""

@@ -1,4 +1,4 @@
-"""What a reference names in a situation: a door or a junction, or where to look for it."""
+"""Finds the referent of a reference in a situation: a door, a junction, or a pose to look from."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from semnav_features.corridor import Junction
 
 
 def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
-    """The door that a reference names.
+    """Find the door that a reference names.
 
     Args:
-        reference: to a door.
+        reference: a reference to a door.
         situation: of a robot that looks towards it, see `Situation.towards`.
 
     Raises:
-        GroundingError: the corridor ended before.
+        GroundingError: the corridor ended before such a door.
         UnclearError: the side is open and doors on both fit.
     """
     if reference.side is Side.OPPOSITE:
@@ -52,7 +52,7 @@ def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDo
 def named_doors(
     reference: DoorReference, situation: Situation
 ) -> tuple[Sequence[CountedDoor], bool]:
-    """The doors that a reference may name, in order, and whether there may be more farther on.
+    """The doors that a reference may name, in order, and whether there may be more farther along.
 
     Args:
         reference: to a door on any side but opposite.
@@ -69,11 +69,12 @@ def named_doors(
 def find_junction(
     reference: PlaceReference | None, turning: Turning | None, situation: Situation
 ) -> Known[Junction] | Searching:
-    """The junction that a reference names.
+    """Find the junction that a reference names.
 
-    Only junctions that open to the side of the turn count. Without a reference it is the next
-    one of any kind. Whether a junction is a corner can hang on an opening that is hard to see; so
-    at the end of a corridor that has none of the kind a robot takes what else leads its way.
+    Only junctions that open to the side of the turn count. Without a reference it is the next one
+    of any kind. Whether a junction is a corner can depend on an opening that is hard to see.
+    Therefore, at the end of a corridor without a junction of this kind, the robot takes another
+    kind that leads to the same side.
 
     Raises:
         GroundingError: there is no such place.
@@ -94,7 +95,7 @@ def find_junction(
 
 
 def junction_name(reference: PlaceReference | None) -> str:
-    """What a reference calls a junction; without one it is the next."""
+    """The words of a reference for a junction; without a reference it is the next junction."""
     return "the next junction" if reference is None else str(reference)
 
 
@@ -119,7 +120,7 @@ def _find_opposite(
 
 
 def _index(reference: DoorReference, count: int) -> int:
-    """Which of `count` doors in the order of travel is meant; negative or too high if none.
+    """Index of the named door among `count` doors in the order of travel; out of range if none.
 
     Raises:
         UnclearError: "the other door", of several.
@@ -134,7 +135,7 @@ def _index(reference: DoorReference, count: int) -> int:
 def _check_order(
     reference: DoorReference, doors: Sequence[CountedDoor], index: int, situation: Situation
 ) -> None:
-    """Refuse to choose between doors that are not one before the other."""
+    """Refuse to choose between doors without an order along the corridor."""
     chosen, rules = doors[index], situation.rules.grounding
     for other in doors[max(0, index - 1) : index + 2]:
         straight = other.side is Side.BEHIND and abs(other.off - chosen.off) < rules.behind_angle
@@ -148,7 +149,7 @@ def _check_order(
 
 
 def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> bool:
-    """Whether a stretch of the side ahead of the robot and before `until` is still unseen."""
+    """Whether a part of the side between the robot and `until` is still unseen."""
     if situation.has_come(until):
         return False  # what cannot be seen from there, no looking will show
     start, corridor = max(0.0, situation.progress), situation.corridor
@@ -159,7 +160,7 @@ def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> b
 
 
 def _missing(what: str, count: int) -> GroundingError:
-    """The error for something that is not there: "no third door: the hallway ended after 2".
+    """The error for a missing referent: "no third door: the hallway ended after 2".
 
     Args:
         what: was looked for, beginning with "the".

@@ -1,4 +1,4 @@
-"""How far a robot is in following a command: which clause is active and where it leads."""
+"""Follows a command: which clause is active, and its goal."""
 
 from __future__ import annotations
 
@@ -41,26 +41,26 @@ from semnav_features.scene import Door, Scene
 
 @dataclass
 class Follower:
-    """The clause under way and its goal.
+    """Follows a command: the active clause and its goal.
 
     The agent's follower runs on the remembered scene and on odometry; the judge's runs on the
     true scene and the true pose. Both are this class, so both count alike.
 
     Attributes:
-        command: what to follow.
-        complete: the scenes hold everything there is (true scenes).
+        command: the command to follow.
+        complete: whether the scenes are complete (true scenes).
         care: share of a goal's tolerances within which it counts as reached; an agent aims well
             inside what the judge accepts.
-        jamb_margin: how far beside a jamb a crossing still counts, and how far behind it the
-            robot must be, metres; perceived jambs are not exact.
-        guide: points out the ways to rooms.
+        jamb_margin: distance beside a jamb at which a crossing still counts, and distance behind
+            the door that the robot must reach, metres; perceived jambs are not exact.
+        guide: gives the ways to rooms.
         rules: distances and tolerances.
-        progress: how far the robot is in the clause under way, dtype `CLAUSE_PROGRESS`, shape (1,);
+        progress: progress of the robot in the active clause, dtype `CLAUSE_PROGRESS`, shape (1,);
             kernels change it.
-        active: index of the clause under way; the number of clauses when all are done.
-        begin: where that clause began.
-        goal: where it leads.
-        impossible: why the clause cannot be carried out, if it cannot.
+        active: index of the active clause; the number of clauses when all are done.
+        begin: pose at which that clause began.
+        goal: goal of that clause.
+        impossible: reason why the clause cannot be carried out, if it cannot.
         skipped: indices of the clauses that a condition ruled out.
     """
 
@@ -103,7 +103,7 @@ class Follower:
         return self.active >= len(self.command.clauses)
 
     def advance(self, scene: Callable[[], Scene], pose: Pose, speed: float, seconds: float) -> bool:
-        """Note where the robot is now; begin the next clause if this one is done.
+        """Note the robot's pose, and begin the next clause if this one is done.
 
         Args:
             scene: called for the scene when a new clause must be grounded.
@@ -117,7 +117,7 @@ class Follower:
         return self.think(note_pose(self.progress, pose, speed, seconds), scene, pose)
 
     def think(self, events: int, scene: Callable[[], Scene], pose: Pose) -> bool:
-        """Do what the events of `note_pose` call for; as `advance`."""
+        """Handle the events of `note_pose`; see `advance`."""
         if events & TRAIL_DUE:
             self._trail.note(pose)
             self._write(trail=self._trail.end)
@@ -126,7 +126,7 @@ class Follower:
         return bool(events & CLAUSE_DONE)
 
     def target(self, pose: Pose) -> Goal:
-        """What a robot at a pose should head for now: the goal, or the next place on the way."""
+        """The target of a robot at a pose: the goal of the clause, or the next place on its way."""
         if not self.goal.places:
             return self.goal
         from semnav_env.mind.grounding.known_way import next_on_way  # few goals lie on a known way
@@ -134,7 +134,7 @@ class Follower:
         return next_on_way(self.goal, pose, self.rules.grounding)
 
     def look(self, scene: Scene, pose: Pose) -> None:
-        """Ground the active clause anew, on what is known by now."""
+        """Ground the active clause again, on the present scene."""
         if self.done:
             self._lead_to(StopGoal(pose, "done"))
             return
@@ -157,7 +157,7 @@ class Follower:
             self._lead_to(StopGoal(pose, self.impossible))
 
     def skip_to_next(self, scene: Scene) -> None:
-        """Take the active clause for done."""
+        """Treat the active clause as done."""
         self._begin_next(scene, self.goal.next_begin)
 
     def _ground(self, scene: Scene, pose: Pose) -> Goal | Known[bool]:
@@ -190,7 +190,7 @@ class Follower:
         )
 
     def _begin_next(self, scene: Scene, pose: Pose) -> None:
-        """Begin where the clause before leads, so that counting does not depend on the driving."""
+        """Begin the next clause at the goal of the last one; counting then ignores the driving."""
         match self.goal:
             case ReachGoal(beside=beside, door=door):
                 self._beside = beside or door
@@ -202,7 +202,7 @@ class Follower:
         self._begin_clause(scene, self.goal.next_begin, pose)
 
     def _go_on(self, index: int) -> None:
-        """Make that clause the active one; what lies between is skipped."""
+        """Make a clause the active one; the clauses between are skipped."""
         if index > self.active + 1:
             self.skipped |= frozenset(range(self.active + 1, index))
         self.active = index
@@ -236,7 +236,7 @@ class Follower:
             self.progress[name] = value
 
     def __copy__(self) -> Self:
-        """A follower that goes on by itself."""
+        """A copy of the follower that advances independently."""
         other = object.__new__(type(self))
         other.__dict__.update(self.__dict__)
         other.progress, other._trail = self.progress.copy(), deepcopy(self._trail)

@@ -1,4 +1,4 @@
-"""Where a clause leads: the interface between grounding and driving."""
+"""Goals of clauses, the interface between grounding and driving."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from semnav_features.scene import Door
 
 
 class GoalKind(IntEnum):
-    """The number by which an observation tells what reaching a goal means."""
+    """The kind of a goal, as a number for observations."""
 
     SEEK = 0
     REACH = 1
@@ -24,14 +24,14 @@ class GoalKind(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class BaseGoal:
-    """What all goals have; everything is in the frame of the scene that was grounded on.
+    """Fields of all goals, in the frame of the scene on which the clause was grounded.
 
     Attributes:
-        pose: where the robot's centre should come to be, (x, y, heading).
+        pose: pose that the robot's centre should reach, (x, y, heading), metres and radians.
         corridor: the corridor in which the referent was found.
-        onward: where the next clause begins; None for `pose`. The middle of the doorway that was
-            crossed, or the mouth of the arm that was turned into.
-        places: of the way there, from its begin on, if it is known; (x, y) in metres.
+        onward: pose at which the next clause begins, such as the middle of the crossed doorway or
+            the mouth of the arm; None for `pose`.
+        places: places of the known way to the goal, from its beginning on, (x, y) in metres.
     """
 
     kind: ClassVar[GoalKind]
@@ -43,7 +43,7 @@ class BaseGoal:
 
     @property
     def next_begin(self) -> Pose:
-        """Where the next clause begins."""
+        """Pose at which the next clause begins."""
         return self.onward or self.pose
 
 
@@ -52,7 +52,7 @@ class SeekGoal(BaseGoal):
     """Drive towards `pose` and keep looking: the referent has not been seen yet.
 
     Attributes:
-        what: is being looked for, in words.
+        what: the referent of the search, in words.
     """
 
     kind: ClassVar[GoalKind] = GoalKind.SEEK
@@ -60,7 +60,7 @@ class SeekGoal(BaseGoal):
 
     @property
     def because(self) -> str:
-        """What was understood, for the picture and the log."""
+        """The object of the goal in words, for the picture and the log."""
         return f"looking for {self.what}"
 
 
@@ -69,16 +69,16 @@ class ReachGoal(BaseGoal):
     """Be at `pose`, within the tolerances.
 
     Attributes:
-        distance_tolerance: how far from `pose` still counts as there, metres.
-        heading_tolerance: how far off its heading, radians; pi where the heading is free.
-        because: what was understood, for the picture and the log.
-        door: the doorway to stand before; its `name` only on a true scene.
+        distance_tolerance: largest distance from `pose`, metres.
+        heading_tolerance: largest heading error, radians; pi if the heading is free.
+        because: the understood referent in words, for the picture and the log.
+        door: the doorway to stand before; it has a `name` only on a true scene.
         junction: the junction at which to turn.
         beside: the door beside which the goal lies, of "until the second door".
-        offset_tolerance: where it is not None, `distance_tolerance` counts along the pose's heading
-            only, and this one across it, metres: at the end of a known way, where odometry may
-            have drifted.
-        backwards: it is driven to backwards, without a turn.
+        offset_tolerance: if it is not None, `distance_tolerance` counts only along the pose's
+            heading, and this tolerance across it, metres: at the end of a known way, where
+            odometry may have drifted.
+        backwards: whether the robot drives to it backwards, without a turn.
     """
 
     kind: ClassVar[GoalKind] = GoalKind.REACH
@@ -98,7 +98,7 @@ class ReachGoal(BaseGoal):
 
     @property
     def tolerances(self) -> tuple[float, float, float]:
-        """Tolerances of distance, heading and offset; NaN where there is none of the offset."""
+        """Tolerances of distance, heading and offset; NaN if there is none for the offset."""
         offset = math.nan if self.offset_tolerance is None else self.offset_tolerance
         return self.distance_tolerance, self.heading_tolerance, offset
 
@@ -121,13 +121,13 @@ class PassGoal(BaseGoal):
     because: str = ""
 
     def crossed_between(self, before: Pose, after: Pose, margin: float = 0.0) -> bool:
-        """Whether the way from `before` to `after` leads forward through the door.
+        """Whether the step from `before` to `after` leads forward through the door.
 
         Args:
             before: a pose of the robot's centre.
-            after: the next one.
-            margin: how far beside the jambs still counts, and how far behind them the way must
-                lead, metres; for a door that is not known exactly.
+            after: the next pose.
+            margin: distance beside the jambs that still counts, and distance behind them that the
+                step must reach, metres; for a door that is not known exactly.
         """
         ends, heading = (*self.door.start, *self.door.end), self.pose[2]
         return is_crossed(before[:2], after[:2], ends, self.door.width, heading, margin)
@@ -139,9 +139,9 @@ class StopGoal(BaseGoal):
 
     Attributes:
         because: what was understood, for the picture and the log.
-        wait: for how long, seconds.
-        roams: whether the robot may go anywhere before, through any door: it stands still to say
-            that it has finished.
+        wait: duration of standing still, seconds.
+        roams: whether the robot may drive anywhere before, through any door; it then stands still
+            to say that it has finished.
     """
 
     kind: ClassVar[GoalKind] = GoalKind.STOP
@@ -151,7 +151,7 @@ class StopGoal(BaseGoal):
 
 
 Goal: TypeAlias = SeekGoal | ReachGoal | PassGoal | StopGoal
-"""Where a clause leads."""
+"""The goal of a clause."""
 
 
 def door_of(goal: Goal) -> Door | None:
@@ -164,5 +164,5 @@ def door_of(goal: Goal) -> Door | None:
 
 
 def wait_of(goal: Goal) -> float:
-    """How long the robot is to stand still at a goal, seconds."""
+    """Time for which the robot must stand still at a goal, seconds."""
     return goal.wait if isinstance(goal, StopGoal) else 0.0

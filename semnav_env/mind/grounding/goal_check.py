@@ -1,4 +1,4 @@
-"""Whether a goal is reached, a doorway crossed, a direction inspected: compiled formulas."""
+"""Compiled checks: whether a goal is reached, a doorway crossed, a direction inspected."""
 
 from __future__ import annotations
 
@@ -45,16 +45,16 @@ def is_reached(
 def is_crossed(
     before: Point, after: Point, door: DoorEnds, width: float, heading: float, margin: float
 ) -> bool:
-    """Whether the way from one place to the next leads forward through a door.
+    """Whether the step from one position to the next leads forward through a door.
 
     Args:
-        before: a place of the robot's centre.
-        after: the next one.
-        door: its jambs.
-        width: of the door, metres.
-        heading: through the door, radians.
-        margin: how far beside the jambs still counts, and how far behind them the way must lead,
-            metres.
+        before: a position of the robot's centre.
+        after: the next position.
+        door: the jambs of the door.
+        width: width of the door, metres.
+        heading: heading through the door, radians.
+        margin: distance beside the jambs that still counts, and distance behind them that the step
+            must reach, metres.
     """
     ax, ay, bx, by = door
     dx, dy = after[0] - before[0], after[1] - before[1]

@@ -1,4 +1,4 @@
-"""The goals of clauses that lead to a door, through one, out of a room, or where a way leads."""
+"""The goals of clauses to a door, through a door, out of a room, or along a known way."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ from semnav_features.frames import Pose
 
 
 def search_goal(search: Searching) -> SeekGoal | ReachGoal:
-    """The goal of looking for something.
+    """The goal of a search.
 
-    A search on the spot is a goal that no pose reaches, for turning is no end in itself.
+    The goal of a search on the spot is never reached, because turning alone completes no clause.
     """
     if search.on_the_spot:
         return ReachGoal(search.lookout, 0.0, 0.0, f"looking for {search.what}")
@@ -30,13 +30,13 @@ def search_goal(search: Searching) -> SeekGoal | ReachGoal:
 
 
 def is_search(goal: Goal) -> bool:
-    """Whether a goal is that of looking for something, see `search_goal`."""
+    """Whether a goal is that of a search, see `search_goal`."""
     on_the_spot = isinstance(goal, ReachGoal) and goal.distance_tolerance == 0.0
     return on_the_spot or isinstance(goal, SeekGoal)
 
 
 def has_looked(goal: Goal, pose: Pose, rules: GroundingRules) -> bool:
-    """Whether a goal is that of looking for something, and a robot has come to look from there."""
+    """Whether a goal is that of a search, and the robot has reached its lookout point."""
     if isinstance(goal, SeekGoal):
         return math.dist(goal.pose[:2], pose[:2]) <= rules.lookout_distance
     return is_search(goal) and looks_along(pose, goal.pose[2], rules.inspection_angle)
@@ -66,7 +66,7 @@ def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
 
 
 def _because(clause: GoToDoor) -> str:
-    """The door, and that nothing was said of how to approach it."""
+    """The door in words, with a remark if the approach was not said."""
     from semnav_env.language.languages import english  # read when first spoken
 
     return str(clause.door) + (english().say("by_default") if clause.by_default else "")
@@ -87,8 +87,7 @@ def leave_goal(situation: Situation) -> Goal:
 def way_goal(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
     """The goal of "go to the kitchen" and of "go back to the start".
 
-    The door that is seen where one was pointed out is the one to pass; until it is seen, the one
-    that was pointed out.
+    The door to pass is the one that is seen near the told door; until it is seen, the told door.
 
     Raises:
         GroundingError: the robot has not been told the way.
@@ -108,7 +107,7 @@ def way_goal(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
 
 
 def _before_room(line: CountedDoor, because: str, way: Way, situation: Situation) -> ReachGoal:
-    """Stand in front of a room's door, facing it."""
+    """The goal in front of a room's door, facing it."""
     accepted = situation.rules.success
     before = line.pose(-situation.rules.grounding.stand_off)
     return ReachGoal(
@@ -122,7 +121,7 @@ def _before_room(line: CountedDoor, because: str, way: Way, situation: Situation
 
 
 def _end_of_way(way: Way, because: str, situation: Situation) -> ReachGoal:
-    """Be where the way leads, facing as the last stretch of it does."""
+    """The goal at the end of a way, facing along its last part."""
     (ax, ay), (bx, by) = way.places[-2:]
     accepted = situation.rules.success
     return ReachGoal(

@@ -1,4 +1,4 @@
-"""From a clause and a scene to a goal; one implementation for perceived and true scenes."""
+"""Turns a clause and a scene into a goal; one implementation for perceived and true scenes."""
 
 from __future__ import annotations
 
@@ -41,25 +41,25 @@ def ground(
     way: Way | None = None,
     rules: Rules = Rules(),
 ) -> Goal:
-    """Find what a clause refers to.
+    """Find the referent of a clause, and return its goal.
 
     Args:
         clause: one clause of a command.
         scene: remembered or true walls and doors, any frame.
-        begin: where the robot was when the clause began, in the scene's frame.
-        pose: how far it has come since then; `begin` if not given.
-        complete: the scene holds everything there is, so there is nothing to look for.
-        after_corridor: the clause follows "go down the hallway", so a bare turn means the next
-            place that offers it.
-        way: to the room that the clause names, or back, in the scene's frame.
+        begin: pose of the robot when the clause began, in the scene's frame.
+        pose: pose of the robot now, in the scene's frame; `begin` if not given.
+        complete: whether the scene is complete, so that no search is needed.
+        after_corridor: whether the clause follows "go down the hallway"; a turn without a place is
+            then made at the next place that allows it.
+        way: way to the room that the clause names, or back, in the scene's frame.
         rules: distances and tolerances.
 
     Returns:
-        The goal in the scene's frame. A `SeekGoal` while the referent is not seen yet.
+        The goal in the scene's frame; a `SeekGoal` while the referent has not been seen.
 
     Raises:
-        GroundingError: the referent cannot be there; the message says what is.
-        ValueError: a door of the scene has no width, and another one may lie behind it.
+        GroundingError: the referent cannot be there; the message says what is there.
+        ValueError: a door of the scene has no width, and another door may lie behind it.
     """
     here = begin if pose is None else pose
     situation = Situation(scene, begin, here, complete, after_corridor, way, rules=rules)

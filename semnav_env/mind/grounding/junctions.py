@@ -1,4 +1,4 @@
-"""Which intersections and corners ahead count, and where their arms begin."""
+"""Finds the intersections and corners ahead that count, and the mouths of their arms."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def junctions_ahead(
     turning: Turning | None = None,
     rules: GroundingRules = GroundingRules(),
 ) -> list[Junction]:
-    """The junctions ahead that are such a place and open to the side of the turn, in order."""
+    """The junctions ahead of the named kind that open to the side of the turn, in order."""
     return [
         junction
         for junction in corridor.junctions
@@ -39,13 +39,13 @@ def mouth_of(
     scene: Scene,
     rules: GroundingRules,
 ) -> Pose:
-    """The pose in the mouth of an arm, on its centre line, looking out along it.
+    """The pose in the mouth of an arm, on its centre line, facing along the arm.
 
     Args:
-        junction: that has the arm.
+        junction: the junction with the arm.
         turning: left or right, to the arm.
-        corridor: of the junction.
-        scene: in the frame of the corridor's frame.
+        corridor: the corridor of the junction.
+        scene: the scene in which the corridor was found.
         rules: distances.
     """
     opening = junction.left if turning is Turning.LEFT else junction.right

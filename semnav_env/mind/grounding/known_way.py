@@ -1,4 +1,4 @@
-"""Driving along a way that is known: the next place on it to head for."""
+"""Finds the next target on a known way."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from semnav_features.frames import Point, Pose, to_local, to_parent, wrap_angle
 
 
 def next_on_way(goal: Goal, pose: Pose, rules: GroundingRules) -> Goal:
-    """What a robot at a pose should head for: the goal, or the next place on a long known way."""
+    """The target of a robot at a pose: the goal, or the next place on a long known way."""
     if not goal.places or (isinstance(goal, ReachGoal) and goal.backwards):
         return goal
     apart = [math.dist(place, pose[:2]) for place in goal.places]
@@ -30,16 +30,16 @@ def next_on_way(goal: Goal, pose: Pose, rules: GroundingRules) -> Goal:
 
 
 def _along(places: Sequence[Point], index: int) -> Pose:
-    """A place of a way, or the one before the last, and the direction of the way there."""
+    """A place of a way, but not its last one, and the direction of the way there."""
     index = min(index, len(places) - 2)
     (x, y), (bx, by) = places[index : index + 2]
     return x, y, math.atan2(by - y, bx - x)
 
 
 def _beside(there: Pose, offset: float) -> Pose:
-    """The place as far to the left of one on a straight way as the robot is beside the way here.
+    """A place of a straight way, moved sideways by the robot's present offset from the way.
 
-    So a corridor is driven down where it is, however far odometry has drifted to a side.
+    Therefore the robot stays in the corridor, even if odometry has drifted to a side.
     """
     x, y = to_parent(there, (0.0, offset))
     return x, y, there[2]

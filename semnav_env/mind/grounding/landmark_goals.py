@@ -20,7 +20,7 @@ def landmark_goal(clause: Follow | Face, situation: Situation) -> Goal:
     """The goal of a clause with a room as a landmark, or of facing something.
 
     Raises:
-        GroundingError: it cannot be there, or the robot has not been told the way.
+        GroundingError: the referent cannot be there, or the robot was not told the way.
     """
     if isinstance(clause, Face):
         return face_goal(clause, situation)
@@ -54,7 +54,7 @@ def follow_to_room(clause: Follow, situation: Situation) -> ReachGoal:
 
 
 def _last_in_hallway(way: Way, middle: Point, stand_off: float) -> int:
-    """Number of the last place of a way that is not yet before the door."""
+    """Index of the last place of a way in the corridor, before the way turns to the door."""
     far = [k for k, place in enumerate(way.places) if math.dist(place, middle) >= stand_off]
     return far[-1] if far else 0
 
@@ -63,7 +63,7 @@ def face_goal(clause: Face, situation: Situation) -> Goal:
     """The goal of "face the second door on the left": turn on the spot.
 
     Raises:
-        GroundingError: it cannot be there.
+        GroundingError: the referent cannot be there.
     """
     what = clause.what
     if isinstance(what, Side):
@@ -92,7 +92,7 @@ def _face_place(clause: Face, what: PlaceReference, situation: Situation) -> Goa
 
 
 def _heading_along_wall(side: Side, situation: Situation) -> float:
-    """The heading at which the nearest of the walls beside and ahead is on that side."""
+    """The heading at which the nearest of the walls beside and ahead is on the named side."""
     corridor = situation.corridor
     here = max(0.0, corridor.along(situation.begin[:2]))
     beside = to_local(corridor.frame, situation.begin[:2])[1]

@@ -1,4 +1,4 @@
-"""Where else in a room to look for its door."""
+"""Finds lookout points in a room, from which to look for its door."""
 
 from __future__ import annotations
 
@@ -13,30 +13,31 @@ from semnav_env.mind.grounding.situation import Situation, turned
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.scene import Door, Scene, ends_of
 
-WHAT = "the door of the room"
-"""What is looked for."""
+REFERENT = "the door of the room"
+"""The referent of the search, in words."""
 
 HEADINGS: FloatArray = math.pi / 12 * np.arange(24.0)
 """Directions in which a lookout may lie, from the heading of the last one, radians."""
 
 HALF_WIDTH = 0.4
-"""Half of the width that must be free on the way to a lookout, metres: of a body."""
+"""Half of the width that must be free on the path to a lookout, metres: half of a body's width."""
 
 WALL_DISTANCE = 0.9
-"""Distance that a lookout keeps from what lies behind it, metres: room to turn."""
+"""Distance from a lookout to the wall behind it, metres: room to turn."""
 
 MAX_STEP, MIN_STEP = 4.0, 1.0
-"""Farthest and nearest that a lookout may lie from those before it, metres: within a room, and far
+"""Largest and least distance of a lookout from those before it, metres: within a room, and far
 enough to see past another piece of furniture."""
 
 MAX_LOOKOUTS = 5
-"""A room has been looked at from so many places at most, the first one included."""
+"""Largest number of lookouts in a room, including the first one."""
 
 
 def exits_in_view(situation: Situation) -> list[Door] | Searching:
-    """The exits of the room that are in view from where the robot has looked, or where to look.
+    """The exits of the room that are in view, or the search for them.
 
-    It turns around first, then it looks from other places in the room. None if that is of no use.
+    The robot turns around first; then it looks from other places in the room. None if no further
+    lookout helps.
     """
     scene, begin, rules = situation.scene, situation.begin, situation.rules.grounding
     for place in (begin, *situation.lookouts):
@@ -45,20 +46,20 @@ def exits_in_view(situation: Situation) -> list[Door] | Searching:
         if exits:
             return exits
     if not situation.lookouts:
-        return situation.turn_to(turned(begin)[2], WHAT)
+        return situation.turn_to(turned(begin)[2], REFERENT)
     lookout = next_lookout(scene, situation.lookouts)
-    return [] if lookout is None else Searching(WHAT, lookout)
+    return [] if lookout is None else Searching(REFERENT, lookout)
 
 
 def next_lookout(scene: Scene, lookouts: Sequence[Pose]) -> Pose | None:
-    """The place straight ahead of the last lookout, in any direction, that is farthest from all.
+    """The place on a free straight line from the last lookout that is farthest from all lookouts.
 
     Args:
-        scene: what is remembered; a known door is not driven through.
-        lookouts: where the robot has looked from, the last one last.
+        scene: the remembered scene; the robot does not drive through a known door.
+        lookouts: poses from which the robot has looked, in the order of time.
 
     Returns:
-        The place, and the heading to it; None if there is none that would show more.
+        The place, and the heading to it; None if no place would show more.
     """
     if len(lookouts) >= MAX_LOOKOUTS:
         return None

@@ -1,4 +1,4 @@
-"""Which door is the one opposite: the one that faces a door, or the robot."""
+"""Finds the door opposite: the door that faces another door, or the robot."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from semnav_features.kernels.corridor_rays import BODY_WIDTH
 from semnav_features.scene import Door
 
 ORDINALS_OF_ONE = (1, LAST, OTHER)
-"""The ordinals that a single door can have."""
+"""Ordinals that are allowed for a single door."""
 
 VIEW_HEADINGS = {Side.AHEAD: 0.0, Side.LEFT: math.pi / 2, Side.RIGHT: -math.pi / 2}
 """Headings of the views from the robot's own place, from the corridor's axis, radians."""
@@ -26,9 +26,9 @@ class AcrossView:
     """A view straight across.
 
     Attributes:
-        pose: from where and which way, in the scene's frame.
-        side: on which side that is.
-        door: from whose middle; None for the robot's own place.
+        pose: pose of the view, scene frame.
+        side: side of the view.
+        door: the door from whose middle the view starts; None for the robot's position.
     """
 
     pose: Pose
@@ -37,11 +37,11 @@ class AcrossView:
 
     @property
     def half_width(self) -> float:
-        """Half of the width that is faced, metres."""
+        """Half of the width of the view, metres."""
         return (BODY_WIDTH if self.door is None else self.door.width) / 2
 
     def faced(self, situation: Situation) -> Door | None:
-        """The door that shares the most of this width; None if none does."""
+        """The door with the largest overlap with this width; None if no door overlaps."""
         rules = situation.rules.grounding
         from_robot = self.door is None
         most = rules.opposite_robot_distance if from_robot else rules.opposite_door_distance
@@ -54,7 +54,7 @@ class AcrossView:
         return best if best is not None and shares[best] > 0.0 else None
 
     def is_done(self, situation: Situation) -> bool:
-        """Whether there is nothing left to look at there."""
+        """Whether everything in this view has been seen."""
         if self.door is None:
             return self._is_inspected(situation)
         out = to_local(self.pose, situation.pose[:2])[0]
@@ -62,7 +62,7 @@ class AcrossView:
         return stepped_out and situation.looks_along(self.pose[2])
 
     def search(self, situation: Situation, what: object) -> Searching:
-        """Turn there; or come out of the doorway to look."""
+        """The search in this view: by turning, or by coming out of the doorway."""
         if not situation.scene.walls:
             return Searching(str(what), situation.begin)
         if not situation.looks_along(self.pose[2]):
@@ -71,10 +71,10 @@ class AcrossView:
         return Searching(str(what), compose(self.pose, (step, 0.0, 0.0)))
 
     def _is_inspected(self, situation: Situation) -> bool:
-        """Whether a robot in a corridor has seen what is on this side.
+        """Whether a robot in a corridor has seen this side.
 
-        It looks ahead and sees the walls aside, so it turns only to a gap in them on one side; gaps
-        on both sides are a crossing.
+        The robot faces ahead and sees the walls beside it, so it turns only to a gap on one side;
+        gaps on both sides are a crossing.
         """
         if self.side is Side.AHEAD:
             return bool(situation.scene.walls)
@@ -83,7 +83,7 @@ class AcrossView:
         return not one_gap or situation.looks_along(self.pose[2])
 
     def _is_gap(self, situation: Situation, left: bool) -> bool:
-        """Whether some of a side, as wide as is faced, is no wall or not seen."""
+        """Whether a part of a side, within the width of the view, is no wall or unseen."""
         here = situation.corridor.along(self.pose[:2])
         width = (here - self.half_width, here, here + self.half_width)
         return any(math.isinf(situation.corridor.side_at(left, along)) for along in width)
@@ -94,8 +94,8 @@ def doors_opposite(
 ) -> Known[dict[AcrossView, Door]] | Searching:
     """The doors opposite, by the views that meet them.
 
-    A robot that was sent to a door, or past it, looks across from that door; one that stands in a
-    doorway looks on through it. Any other robot looks ahead and to both sides.
+    After a clause to a door, or past it, the view starts at that door. In a doorway the view goes
+    through the doorway. In other cases there are views ahead and to both sides.
     """
     view = view_from_door(situation)
     views = _views_from_robot(situation) if view is None else [view]
@@ -107,7 +107,7 @@ def doors_opposite(
 
 
 def view_from_door(situation: Situation) -> AcrossView | None:
-    """The view across from the door that the robot was sent to, or from its doorway."""
+    """The view from the door of the clause before, or from the doorway of the robot."""
     begin, door = situation.begin, situation.beside
     about = begin[2]
     if door is not None:

@@ -10,18 +10,18 @@ from semnav_env.mind.grounding.situation import Situation
 
 
 class GroundedClause(OwnClause):
-    """A clause of one's own, which says itself where it leads; derive a frozen dataclass.
+    """A clause of your own, which makes its own goal; derive a frozen dataclass from it.
 
-    Robot and judge ask the same object, the robot in what it remembers and the judge in the floor
-    plan, so `goal` depends on nothing but the situation.
+    Robot and judge call the same object, the robot with its remembered scene and the judge with
+    the floor plan, so `goal` may depend only on the situation.
     """
 
     __slots__ = ()
 
     @abstractmethod
     def goal(self, situation: Situation) -> Goal:
-        """Where the clause leads, in the frame of the situation's scene.
+        """The goal of the clause, in the frame of the situation's scene.
 
         Raises:
-            GroundingError: it cannot be carried out there; says why.
+            GroundingError: the clause cannot be carried out there; says why.
         """

@@ -1,4 +1,4 @@
-"""Which of the doors in view lead out of the room that a robot is in."""
+"""Finds the doors in view that lead out of the room of the robot."""
 
 from __future__ import annotations
 
@@ -13,31 +13,33 @@ from semnav_features.frames import FloatArray, Pose, heading_between
 from semnav_features.scene import Door, Scene, ends_of
 
 BEHIND_OPENING = 0.01
-"""Share of the way to an opening by which a look through it begins behind it, so that its own wall
-does not count."""
+"""Share of the distance to an opening by which a ray through it begins behind it, so that the wall
+of the opening does not count."""
 
 SURVEY_DEPTH = 0.3
-"""Distance behind the middle of a gap of the place from which its surroundings are judged, metres:
-more than walls are thick."""
+"""Distance behind the middle of a gap at which its surroundings are checked, metres: more than the
+thickness of walls."""
 
 SURVEY_HEADINGS = math.pi * ((np.arange(30) + 0.5) / 30 - 0.5)
-"""Directions that are judged there, from straight ahead, radians: 6 degrees apart."""
+"""Directions that are checked there, from straight ahead, radians: 6 degrees apart."""
 
 OPEN_DISTANCE = 3.0
-"""A direction in which nothing is known for so far is open, metres: more than a niche is wide."""
+"""A direction is open if nothing is known up to this distance, metres: more than a niche is
+wide."""
 
 MIN_OPEN_SHARE = 0.1
-"""Least share of open directions behind a door. What is shut off all around is a part of the room:
-of the true exits in half of the episodes of `train` that begin in a room none had less."""
+"""Least share of open directions behind a door; a space that is closed all around is a part of the
+room. No true exit had less, in half of the episodes of `train` that begin in a room."""
 
 SIMILAR_SHARE = 0.05
-"""Doors whose shares differ by less are equally open: by one direction."""
+"""Doors whose shares of open directions differ by less than this are equally open: one
+direction."""
 
 
 def room_exits(
     doors: list[Door], scene: Scene, pose: Pose, rules: GroundingRules = GroundingRules()
 ) -> list[Door]:
-    """Those of the doors around a pose that lead out of the room, on a scene that is incomplete.
+    """The doors around a pose that lead out of the room, in an incomplete scene.
 
     The walls of the room may not have been seen as a whole yet, so doors farther on are in view. A
     door behind the line of another door is not the room's. A gap between pieces of furniture is no
@@ -64,10 +66,10 @@ def room_exits(
 def without_gaps(
     scene: Scene, pose: Pose, rules: GroundingRules = GroundingRules()
 ) -> tuple[Scene, list[Door]]:
-    """A scene without the gaps that lead nowhere, and the doors in view from a pose then.
+    """A scene without gaps between pieces of furniture, and its doors in view from a pose.
 
-    Walls shut off what lies behind such a gap, so it is a part of the room; what is seen through it
-    belongs to the room as well.
+    Walls close the space behind such a gap, so it is a part of the room; doors that are seen
+    through the gap belong to the room as well.
     """
     while True:
         around = doors_around(scene, pose, rules=rules)
@@ -78,10 +80,10 @@ def without_gaps(
 
 
 def open_share(door: Door, scene: Scene, pose: Pose) -> float:
-    """The share of directions behind a door, seen from a pose, in which it is open.
+    """The share of open directions behind a door, seen from a pose.
 
-    Behind a door is a corridor or another room, of which little is known: much is open. Behind a
-    gap between pieces of furniture the walls of the room itself come into view.
+    Behind a true door is a corridor or another room, of which little is known: most directions are
+    open. Behind a gap between pieces of furniture are the walls of the room itself.
     """
     if door.width == 0.0:
         return 1.0
@@ -94,9 +96,9 @@ def open_share(door: Door, scene: Scene, pose: Pose) -> float:
 
 
 def _depth_behind(door: Door, scene: Scene, pose: Pose) -> float:
-    """How far behind a door the next wall or door is that is seen through it, metres; or NaN.
+    """Distance behind a door to the next wall or door that is seen through it, metres; or NaN.
 
-    The median of a few looks; those that meet nothing known say nothing.
+    It is the median over a few rays; rays that meet nothing known do not count.
     """
     solid = _solid_but(door, scene)
     across = heading_through(door, heading_between(pose[:2], door.midpoint))
@@ -110,7 +112,7 @@ def _depth_behind(door: Door, scene: Scene, pose: Pose) -> float:
 
 
 def _solid_but(door: Door, scene: Scene) -> FloatArray:
-    """The walls of a scene and its doors but one, shape (n, 4)."""
+    """The walls of a scene and its doors except one, shape (n, 4)."""
     others = [other for other in scene.doors if other is not door]
     return np.vstack((ends_of(scene.walls), ends_of(others)))
 

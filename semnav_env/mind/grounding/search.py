@@ -1,4 +1,4 @@
-"""What a search for a referent gives: it is known, or here is where to look for it."""
+"""The two results of finding a referent: it is known, or it must be searched."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, slots=True)
 class Known(Generic[T]):
-    """What a reference names, or the answer to what was asked.
+    """The referent is found, or the question is answered.
 
     Attributes:
         value: the referent.
@@ -24,12 +24,12 @@ class Known(Generic[T]):
 
 @dataclass(frozen=True, slots=True)
 class Searching:
-    """What a reference names has not been seen yet.
+    """The referent has not been seen yet; the robot must look for it.
 
     Attributes:
-        what: is being looked for, in words.
+        what: the referent of the search, in words.
         lookout: the pose from which to look for it, in the frame of the scene.
-        corridor: along which the search leads; None if it leads along none.
+        corridor: the corridor along which the search leads; None if there is none.
         on_the_spot: whether only the heading of `lookout` matters.
     """
 

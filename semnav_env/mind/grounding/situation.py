@@ -1,4 +1,4 @@
-"""What a clause is grounded on: a scene, where the clause began, and how far the robot is."""
+"""The situation in which a clause is grounded: scene, start of the clause, robot's progress."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from semnav_features.scene import Door, Scene
 
 @dataclass(frozen=True)
 class Situation:
-    """What a clause is grounded on.
+    """The scene and the poses on which a clause is grounded.
 
     Attributes:
         scene: remembered or true walls and doors.
-        begin: where the clause began, in the scene's frame.
-        pose: how far the robot has come since then, in the scene's frame. Its heading is where the
-            robot looks now, or the direction it had to look in if it has done so since then.
-        complete: the scene holds everything there is, so there is nothing to look for.
-        after_corridor: the clause before was "go down the hallway".
-        way: that was pointed out or driven, for a clause that needs one.
-        beside: the door that the clause before led to, and not through.
+        begin: pose at which the clause began, in the scene's frame.
+        pose: pose that the robot has reached since then, in the scene's frame. Its heading is the
+            robot's heading, or the direction in which it had to look if it has done so since then.
+        complete: whether the scene is complete, so that no search is needed.
+        after_corridor: whether the clause before was "go down the hallway".
+        way: the told or driven way, for a clause that needs one.
+        beside: the door to which, but not through which, the clause before led.
         lookouts: poses at which the robot has looked for the referent, in the order of time.
-        back: `begin` is turned around, see `towards`.
+        back: whether `begin` is turned around, see `towards`.
         rules: distances and tolerances.
     """
 
@@ -47,17 +47,17 @@ class Situation:
 
     @cached_property
     def corridor(self) -> Corridor:
-        """The corridor that the robot looked along when the clause began."""
+        """The corridor along which the robot faced when the clause began."""
         return corridor_at(self.scene, self.begin)
 
     @cached_property
     def progress(self) -> float:
-        """How far along the corridor the robot has come, metres."""
+        """Distance along the corridor that the robot has reached, metres."""
         return self.corridor.along((self.pose[0], self.pose[1]))
 
     @property
     def seen_to_end(self) -> bool:
-        """Whether nothing of the corridor is left to be looked at."""
+        """Whether the corridor has been seen to its end."""
         if self.complete:
             return True
         looked = not self.back or self.looks_along(self.begin[2])
@@ -66,15 +66,15 @@ class Situation:
 
     @property
     def last_stop(self) -> float:
-        """How far along the corridor a robot goes at most, metres."""
+        """Largest distance along the corridor to which a robot drives, metres."""
         return self.corridor.end - self.rules.grounding.end_margin
 
     def towards(self, reference: object) -> Situation:
-        """The situation of a robot that turns to what is spoken of: around, if that is behind."""
+        """The situation of a robot that faces the referent, turned around if it is behind."""
         return replace(self, begin=turned(self.begin), back=True) if is_behind(reference) else self
 
     def looks_along(self, heading: float) -> bool:
-        """Whether the robot has looked in that direction."""
+        """Whether the robot has inspected a direction."""
         return looks_along(self.pose, heading, self.rules.grounding.inspection_angle)
 
     def turn_to(self, heading: float, what: object) -> Searching:
@@ -85,8 +85,8 @@ class Situation:
         """A search along the corridor; first the robot turns to where the referent may be.
 
         Args:
-            what: is being looked for.
-            at_most: how far along the corridor to go, metres.
+            what: the referent in words.
+            at_most: largest distance along the corridor, metres.
         """
         if self.back and not self.looks_along(self.begin[2]):
             return self.turn_to(self.begin[2], what)
@@ -94,7 +94,7 @@ class Situation:
         return Searching(str(what), self.corridor.place(along), self.corridor)
 
     def has_come(self, at_most: float) -> bool:
-        """Whether the robot has gone as far as `go_on` would lead it."""
+        """Whether the robot has reached the lookout point of `go_on`."""
         lookout = min(self.last_stop, at_most)
         return self.progress > lookout - self.rules.grounding.lookout_distance
 

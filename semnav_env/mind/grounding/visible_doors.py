@@ -1,4 +1,4 @@
-"""Which doors are in view from a pose."""
+"""Finds the doors that are in view from a pose."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ VIEW_SAMPLES = (0.2, 0.5, 0.8)
 enough, for a jamb may be hidden."""
 
 FREE_SHARE = 0.98
-"""Share of the way to such a place that must be free; the rest may lie in the wall of the door."""
+"""Share of the distance to such a place that must be free; the rest may lie in the wall of the
+door."""
 
 
 def doors_around(
@@ -27,8 +28,8 @@ def doors_around(
 
     Args:
         scene: walls and doors.
-        pose: from where, in the scene's frame.
-        own: a door that the robot stands in: it is not in view, and hides nothing.
+        pose: pose of the view, in the scene's frame.
+        own: the door in which the robot stands: it is not in view, and hides nothing.
         rules: distances.
     """
     doors = [door for door in scene.doors if own is None or not _is_same(door, own, rules)]
@@ -49,7 +50,7 @@ def doors_across(scene: Scene, pose: Pose, own: Door | None, rules: GroundingRul
 
 
 def own_doorway(scene: Scene, pose: Pose, rules: GroundingRules) -> Door | None:
-    """The doorway that a robot stands in or has just come through; None if there is none."""
+    """The doorway in which a robot stands, or through which it has just come; or None."""
     door = doorway_at(scene, pose)
     if door is None or to_local(pose, door.midpoint)[0] > rules.doorway_depth:
         return None
@@ -68,9 +69,9 @@ def _is_same(door: Door, other: Door, rules: GroundingRules) -> bool:
 
 
 def _is_crossed(segments: FloatArray, pose: Pose, place: FloatArray) -> bool:
-    """Whether the line from a pose to a place meets one of the segments, shape (n, 4).
+    """Whether the line from a pose to a place crosses one of the segments, shape (n, 4).
 
-    It does where the ends of the segment lie on different sides of the line, and the pose and the
+    It does if the ends of the segment lie on different sides of the line, and the pose and the
     place on different sides of the segment.
     """
     x, y = pose[0], pose[1]

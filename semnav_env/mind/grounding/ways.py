@@ -1,4 +1,4 @@
-"""The way to a place that cannot be seen from where it is named: pointed out, or driven before."""
+"""Ways to places out of view: told ways, and the trail that the robot has driven."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ WAY_SPACING = 1.5
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """The way to a place, as one who knows the building would point it out.
+    """The way to a place, as a person who knows the building would describe it.
 
     Attributes:
-        places: (x, y) in metres, `WAY_SPACING` apart: from where it begins to where it leads.
-        door: the doorway that leads in; None where there is none to pass.
-        heading: through that door, or else of the robot at the last place, radians.
+        places: (x, y) in metres, `WAY_SPACING` apart, from the start of the way to its end.
+        door: the doorway at the end; None if there is none to pass.
+        heading: heading through that door, or else of the robot at the last place, radians.
     """
 
     places: tuple[Point, ...]
@@ -40,7 +40,7 @@ class Way:
     heading: float = 0.0
 
     def seen_from(self, frame: Pose) -> Way:
-        """The same in another frame."""
+        """A copy of the way in another frame."""
         places = tuple(to_local(frame, place) for place in self.places)
         door = self.door
         if door is not None:
@@ -49,20 +49,20 @@ class Way:
 
 
 class Guide(Protocol):
-    """Points out ways."""
+    """Gives the ways to named rooms."""
 
     def __call__(self, clause: int, begin: Pose) -> Way | None:
-        """The way to the room that a clause of the command names, from where it begins."""
+        """The way from the start of a clause of the command to the room that it names."""
 
 
 @dataclass(frozen=True)
 class KnownWays:
-    """A guide that has pointed out all ways beforehand, by the number of their clause."""
+    """A guide that holds told ways, by the number of their clause."""
 
     ways: Mapping[int, Way]
 
     def __call__(self, clause: int, begin: Pose) -> Way | None:
-        """The way that was pointed out for a clause, if one was."""
+        """The told way of a clause; None if there is none."""
         return self.ways.get(clause)
 
 
@@ -81,7 +81,7 @@ def door_near(scene: Scene, way: Way, pose: Pose, rules: GroundingRules) -> Door
 
 
 def _is_near(door: Door, pointed_out: Pose, rules: GroundingRules) -> bool:
-    """Whether a door may be the one that was pointed out, by its middle and the heading through."""
+    """Whether a door may be the told one, by its middle and the heading through it."""
     through, beside = _apart(door, pointed_out)
     run = heading_between(door.start, door.end)
     turned = abs(math.cos(run - pointed_out[2])) >= math.sin(rules.way_door_angle)
@@ -90,7 +90,7 @@ def _is_near(door: Door, pointed_out: Pose, rules: GroundingRules) -> bool:
 
 
 def _apart(door: Door, pointed_out: Pose) -> Point:
-    """How far a door's middle lies from a pose, along its heading and to its left, metres."""
+    """Position of a door's middle relative to a pose, along its heading and to its left, metres."""
     return to_local(pointed_out, door.midpoint)
 
 
@@ -106,7 +106,7 @@ def paced(points: FloatArray | Sequence[Point]) -> tuple[Point, ...]:
 
 
 class Trail:
-    """Where the robot has been: places `WAY_SPACING` apart, without the loops that it drove."""
+    """The driven path of the robot: places `WAY_SPACING` apart, without loops."""
 
     def __init__(self, start: Pose) -> None:
         self._places = [start[:2]]
@@ -114,11 +114,11 @@ class Trail:
 
     @property
     def end(self) -> Point:
-        """Its last place."""
+        """The last place of the trail."""
         return self._places[-1]
 
     def note(self, pose: Pose) -> None:
-        """Add the place where the robot is now; call it often."""
+        """Add the robot's present position; call it often."""
         here = pose[:2]
         if math.dist(here, self._places[-1]) < WAY_SPACING:
             return
@@ -133,5 +133,5 @@ class Trail:
             self._places.append(here)
 
     def back(self, pose: Pose) -> Way:
-        """The way back to the pose where it began."""
+        """The way back to the pose at which the trail began."""
         return Way((pose[:2], *reversed(self._places)), heading=self._heading)

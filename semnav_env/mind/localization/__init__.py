@@ -1,6 +1,7 @@
-"""Where a robot is in a known floor plan, by odometry and the doors that it detects.
+"""Localization of a robot in a known floor plan, by odometry and the doors that it detects.
 
-A mode of its own: agents that follow commands without a map use `semnav_env.mind.belief`.
+This package is separate from the belief tracker: agents that follow commands without a map use
+`semnav_env.mind.belief`.
 """
 
 from semnav_env.mind.localization.dead_reckoning import OdometryErrors

@@ -1,4 +1,4 @@
-"""The state of the filter over time: a pose, and the biases of the odometry that moves it."""
+"""The state of the filter: a pose, and the biases of its odometry."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from semnav_features.frames import FloatArray, Pose, compose, relative
 
 
 class OdometryErrors(Protocol):
-    """How odometry errs; `OdometrySettings` of the simulator is one, and says what each means."""
+    """Errors of odometry; `OdometrySettings` of the simulator is one, and describes each field."""
 
     @property
     def distance_bias(self) -> float:
@@ -31,17 +31,17 @@ class OdometryErrors(Protocol):
 
     @property
     def distance_noise(self) -> float:
-        """Of the distance travelled, m per sqrt(m)."""
+        """Random walk of the distance travelled, m per sqrt(m)."""
         ...
 
     @property
     def turn_noise(self) -> float:
-        """Of the angle turned, rad per sqrt(rad)."""
+        """Random walk of the angle turned, rad per sqrt(rad)."""
         ...
 
     @property
     def veer_noise(self) -> float:
-        """Of the heading by the distance travelled, rad per sqrt(m)."""
+        """Random walk of the heading by the distance travelled, rad per sqrt(m)."""
         ...
 
     @property
@@ -52,10 +52,10 @@ class OdometryErrors(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class ReckonedState:
-    """What the filter estimates.
+    """The estimate of the filter.
 
     Attributes:
-        pose: of the robot's centre, world frame.
+        pose: pose of the robot's centre, world frame.
         biases: of odometry in this episode: relative errors of its distances and of its turns, and
             its veer in rad/m.
         covariance: of (x, y, heading, *biases), shape (6, 6).
@@ -67,7 +67,7 @@ class ReckonedState:
 
     @classmethod
     def at(cls, pose: Pose, covariance: FloatArray, errors: OdometryErrors) -> ReckonedState:
-        """At a pose with a covariance of shape (3, 3), the biases unknown."""
+        """The state at a pose with a covariance of shape (3, 3) and unknown biases."""
         whole = np.zeros((6, 6))
         whole[:3, :3] = covariance
         spread = errors.distance_bias, errors.turn_bias, errors.veer_bias
@@ -85,7 +85,7 @@ class ReckonedState:
         Args:
             before: odometry at this state, odometry frame.
             after: odometry now.
-            errors: how it errs.
+            errors: errors of odometry.
             touching: whether the body touches something, so that odometry may count motion that
                 was not made: the random walk is wider by `slip`.
         """
@@ -117,5 +117,5 @@ class ReckonedState:
 
 
 def symmetric(covariance: FloatArray) -> FloatArray:
-    """The covariance without what rounding made of its symmetry."""
+    """The covariance, made symmetric again after rounding."""
     return 0.5 * (covariance + covariance.T)

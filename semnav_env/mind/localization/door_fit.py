@@ -1,4 +1,4 @@
-"""One door of the plan fitted to a detected one: the filter's update, and how well it fits."""
+"""Fits a door of the plan to a detected one: the filter's update and its Mahalanobis distance."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ ITERATIONS = 4
 
 @dataclass(frozen=True, eq=False)
 class DoorFit:
-    """What would be believed if a detected door were one of the plan.
+    """The update under the assumption that a detected door is a given door of the plan.
 
     Attributes:
-        door: of the plan, world frame.
-        distance: squared Mahalanobis distance between the two.
-        state: after the update.
+        door: the door of the plan, world frame.
+        distance: squared Mahalanobis distance between the two doors.
+        state: the state after the update.
     """
 
     door: Door
@@ -43,9 +43,9 @@ def fitted(prior: ReckonedState, door: Door, detected: DetectedDoor, plan_sigma:
     and d^T S^-1 d is the squared Mahalanobis distance.
 
     Args:
-        prior: what is believed.
-        door: of the plan, world frame.
-        detected: robot frame.
+        prior: the state before the update.
+        door: the door of the plan, world frame.
+        detected: the detected door, robot frame.
         plan_sigma: standard deviation of each jamb of the plan, metres.
     """
     update = _linear_update(np.zeros(6), prior, door, detected, plan_sigma)

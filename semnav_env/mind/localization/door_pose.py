@@ -1,4 +1,4 @@
-"""What a detected door of the plan says of the robot's pose, and what it leaves open."""
+"""The pose of the robot from a detected door of the plan, with its covariance."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from semnav_features.frames import (
 )
 
 ROUNDING = 1e-9
-"""How far rounding may take a covariance from symmetric and positive, square metres."""
+"""Tolerance for rounding errors of a covariance, square metres."""
 
 
 def pose_from_door(door_world: Door, detected: DetectedDoor) -> tuple[Pose, FloatArray]:
-    """The pose from which a door of the plan looks as it was detected, and its covariance.
+    """The pose from which a door of the plan appears as it was detected, and its covariance.
 
     The heading is the difference of the directions from jamb to jamb: its error is that of the
     jambs across the wall, over the width of the door. The middle of the door then gives the place,
@@ -67,7 +67,7 @@ def _jacobian(heading: float, detected: DetectedDoor) -> FloatArray:
 def seen_jambs(
     pose: Pose, door_world: Door, detected: DetectedDoor
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """What a filter compares: of the jambs that were found alone.
+    """The residual, Jacobian and noise of the jambs that were found, for a filter.
 
     Args:
         pose: about which to linearise, world frame.
@@ -92,7 +92,7 @@ def seen_jambs(
 
 
 def check_detected(detected: DetectedDoor) -> None:
-    """Refuse a detection that is no measurement.
+    """Refuse a detection that is not a valid measurement.
 
     Raises:
         ValueError: jambs that are not finite, no jamb found, or a covariance that is none.

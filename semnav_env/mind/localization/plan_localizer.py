@@ -23,13 +23,13 @@ GATES = {2: 5.99, 4: 9.49}
 coordinates: quantiles of the chi-squared distribution. A right door that is refused costs little,
 for it is seen again a step later."""
 
-RIVALS = 3
-"""How many doors of the plan a detected one is compared with: those nearest to it."""
+COMPARED_DOORS = 3
+"""Number of doors of the plan with which a detected one is compared: the nearest ones."""
 
 
 @dataclass(frozen=True)
 class LocalizerRules:
-    """Which detected doors correct the pose.
+    """Settings of the choice of detected doors that correct the pose.
 
     Attributes:
         least_confidence: of a detection, 0 to 1.
@@ -118,7 +118,7 @@ class PlanLocalizer:
         self._odometry = odometry
 
     def expected(self, reach: float) -> Iterator[tuple[Door, float]]:
-        """Where doors of the plan should be found, robot frame, and how exactly that is known.
+        """Yield the doors of the plan within reach, with the standard deviation of their jambs.
 
         Args:
             reach: largest distance to the middle of a door, metres.
@@ -163,7 +163,9 @@ class PlanLocalizer:
     def _nearest(self, detected: DetectedDoor) -> list[Door]:
         """The doors of the plan whose middles lie nearest to that of a detected one."""
         middle = to_parent(self.pose, detected.midpoint)
-        return nsmallest(RIVALS, self.doors_world, lambda door: math.dist(door.midpoint, middle))
+        return nsmallest(
+            COMPARED_DOORS, self.doors_world, lambda door: math.dist(door.midpoint, middle)
+        )
 
 
 def _check_finite(name: str, pose: Pose) -> None:

@@ -1,4 +1,4 @@
-"""What an agent observes: declared once, packed into one row per step, read back by name."""
+"""Observations of an agent: declared once, packed into one row per step, read by name."""
 
 from typing import TYPE_CHECKING
 

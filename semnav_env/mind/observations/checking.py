@@ -1,4 +1,4 @@
-"""Looks at observations of somebody's own: what is outside its space is named at once."""
+"""Checks observations of a user's own type: a value outside its space is an error."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from gymnasium.spaces import Box, Dict
 
 
 def check_observation(value: Any, space: gym.Space[Any], name: str = "the observation") -> None:
-    """Refuse an observation that is not in its space; a learner would go wrong on it silently.
+    """Refuse an observation that is not in its space, which would silently mislead a learner.
 
     Args:
-        value: that was observed.
-        space: that was declared.
-        name: of the value, for the message.
+        value: the observation.
+        space: the declared space.
+        name: name of the value, for the message.
 
     Raises:
         ValueError: it is not in the space; says where and why.
@@ -40,7 +40,7 @@ def _check_keys(value: Any, space: Dict, name: str) -> None:
 
 
 def _fault(value: np.ndarray, space: Box[Any]) -> str:
-    """What is wrong with an array that is not in its space."""
+    """The reason why an array is not in its space."""
     if not np.can_cast(value.dtype, space.dtype):
         return f"is {value.dtype}; its space is {space.dtype}"
     if value.shape != space.shape:

@@ -43,7 +43,7 @@ class CloudEntry:
         return Box(-FEATURE_BOUND, FEATURE_BOUND, (4 * self.points,), np.float32)
 
     def observe(self, moment: Moment) -> NDArray[np.float32]:
-        """The cloud that the cameras give now.
+        """The present cloud of the cameras.
 
         Raises:
             ValueError: a moment without cameras.

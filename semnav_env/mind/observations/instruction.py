@@ -11,7 +11,7 @@ from semnav_env.robots import RobotSpec
 from semnav_features.lidar_spec import LidarSpec
 
 UNKNOWN_CHARACTER = "?"
-"""Stands for a character that the space does not have."""
+"""Replacement for a character that the space does not contain."""
 
 CHARACTERS = frozenset(map(chr, (*range(32, 127), *range(161, 256)))) | frozenset("–—‘’‚“”„…")
 """Characters of the space: those of Western European languages, and their quotation marks."""
@@ -38,6 +38,6 @@ class InstructionEntry:
         return Text(self.max_length, min_length=0, charset=CHARACTERS)
 
     def observe(self, moment: Moment) -> str:
-        """The words, with `UNKNOWN_CHARACTER` in place of what the space does not have."""
+        """The words, with `UNKNOWN_CHARACTER` in place of characters outside the space."""
         said = moment.instruction[: self.max_length]
         return "".join(each if each in CHARACTERS else UNKNOWN_CHARACTER for each in said)

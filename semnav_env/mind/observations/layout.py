@@ -1,8 +1,8 @@
 """The layout of the observation, declared once.
 
-Name, shape, bounds, unit and meaning of every entry stand here. The spaces, the offsets that the
-kernels write at, the reader of the goal and the table of the documentation all come from it.
-Every entry is one flat array, as stable-baselines3 likes it.
+This module declares name, shape, bounds, unit and meaning of every entry. The spaces, the offsets
+at which the kernels write, the reader of the goal and the table of the documentation all come from
+it. Every entry is one flat array, as stable-baselines3 needs it.
 """
 
 from __future__ import annotations
@@ -20,19 +20,20 @@ from semnav_env.mind.grounding.goal import GoalKind
 from semnav_features.lidar_spec import LidarSpec
 
 UNBOUNDED = 1000.0
-"""Bound of places and distances that have no natural one, metres."""
+"""Bound of positions and distances without a natural limit, metres."""
 
 FEATURE_BOUND = 50.0
-"""Bound of the places of features, metres: beyond the range of indoor lidars."""
+"""Bound of the positions of features, metres: beyond the range of indoor lidars."""
 
 WALL_ROWS, DOOR_ROWS, CORNER_ROWS, PROBE_ROWS = 48, 16, 48, 24
-"""Rows of each kind of feature of a scan; more are left out, in beam order."""
+"""Number of rows for each kind of feature of a scan; in beam order, further features are left
+out."""
 
 REMEMBERED_ROWS, BUMP_ROWS = 16, MOST_PIECES
-"""Rows of remembered doors and of walls that were bumped into."""
+"""Number of rows for remembered doors and for walls of the bump map."""
 
 REMEMBERED_WALL_ROWS, JUNCTION_ROWS = 64, 16
-"""Rows of remembered walls, and of the mouths of arms along a corridor."""
+"""Number of rows for remembered walls, and for the mouths of arms along a corridor."""
 
 ENDS = ("start_x", "start_y", "end_x", "end_y")
 GOAL_KINDS = tuple(kind.name.lower() for kind in GoalKind)
@@ -47,7 +48,7 @@ class Entry:
         columns: names of the values of one row; the columns lie beside each other.
         low: smallest value.
         high: largest value.
-        unit: of the values; empty where they have none.
+        unit: the unit of the values; empty where they have none.
         meaning: what the values are.
         rows: how many rows there are.
         masked: whether `NAME_mask` says which rows count.
@@ -113,7 +114,7 @@ TABLES = (
         BUMP_ROWS,
         ENDS,
         UNBOUNDED,
-        "ends of walls that the robot has bumped into unseen, such as glass",
+        "ends of walls that the robot bumped into and that the lidar does not show, such as glass",
     ),
 )
 """Features; a row counts where its mask is 1."""
@@ -124,7 +125,7 @@ CLAUSE = Entry(
     0.0,
     1.0,
     "",
-    "one-hot: the clause that the robot believes to be under way",
+    "one-hot: the clause that the robot believes to be active",
 )
 ODOMETRY = Entry(
     "odometry",
@@ -132,7 +133,7 @@ ODOMETRY = Entry(
     -UNBOUNDED,
     UNBOUNDED,
     "m, m/s, rad/s",
-    "believed pose, seen from the start, and velocity of the robot",
+    "believed pose in the odom frame, and velocity of the robot",
 )
 GOAL = Entry(
     "goal",
@@ -140,9 +141,9 @@ GOAL = Entry(
     -UNBOUNDED,
     UNBOUNDED,
     "m",
-    "one-hot kind of where to drive now, its pose, and the jambs of its door: `Belief.target`, "
-    "which is the goal of the clause, or a place on the way while the way to a named room is "
-    "long. The pose of a pass goal lies behind its door and heads away from it",
+    "one-hot kind of `Belief.target`, its pose, and the jambs of its door. The target is the goal "
+    "of the clause, or a place on the way to a named room that is still far away. The pose of a "
+    "pass goal lies behind its door and heads away from it",
 )
 
 
@@ -159,16 +160,16 @@ MEMORY_TABLES = (
         JUNCTION_ROWS,
         ("near_x", "near_y", "far_x", "far_y", "side", "goes_on"),
         UNBOUNDED,
-        "mouths of the arms that leave the hallway: near and far edge; side 1 left, -1 right; "
-        "goes_on 1 if the hallway goes on behind it",
+        "mouths of the arms that leave the corridor: near and far edge; side 1 left, -1 right; "
+        "goes_on 1 if the corridor continues behind the mouth",
     ),
     _table(
         "told_ways",
         TOLD_PLACES,
         ("clause", "x", "y"),
         UNBOUNDED,
-        "places on the ways to named rooms, 1.5 m apart, as they were told before driving; clause "
-        "is the number, from 0, of the one that names the room",
+        "places on the ways to named rooms, 1.5 m apart, as told before driving; clause is the "
+        "number, from 0, of the clause that names the room",
     ),
     _table(
         "told_doors",
@@ -178,7 +179,7 @@ MEMORY_TABLES = (
         "jambs of the doors at the ends of told ways",
     ),
 )
-"""What is remembered and was told; a row counts where its mask is 1."""
+"""Entries of the memory and of the told ways; a row counts where its mask is 1."""
 
 HALLWAY = Entry(
     "hallway",
@@ -186,9 +187,9 @@ HALLWAY = Entry(
     -UNBOUNDED,
     UNBOUNDED,
     "m",
-    "the corridor that the robot looks along, in what is remembered: the place on its axis beside "
-    "the robot and the axis's direction, half its width, and where it ends along the axis; ends is "
-    "0 and end 50 where that has not been seen",
+    "the corridor ahead of the robot, by its memory: the point of the axis beside the robot, the "
+    "direction of the axis, half the width, and the end along the axis; ends is 0 and end 50 while "
+    "the end has not been seen",
 )
 START = Entry(
     "start",
@@ -196,7 +197,7 @@ START = Entry(
     -UNBOUNDED,
     UNBOUNDED,
     "m",
-    "where the command began, as the robot believes: the origin of odometry and its x axis",
+    "believed start pose of the command, robot frame: origin and x axis of the odom frame",
 )
 
 
@@ -210,16 +211,17 @@ def _starts(entries: tuple[Entry, ...]) -> dict[str, int]:
 
 
 ENTRIES = (*_with_masks(TABLES), CLAUSE, ODOMETRY, GOAL)
-"""What every row begins with, in its order; the scan follows, where there is one."""
+"""Entries at the beginning of every row, in their order; the scan follows, if there is one."""
 
 MEMORY_ENTRIES = (*_with_masks(MEMORY_TABLES), HALLWAY, START)
-"""What follows the scan in the row of `observation="command"`, in its order."""
+"""Entries after the scan in the row of `observation="command"`, in their order."""
 
 STARTS, MEMORY_STARTS = _starts(ENTRIES), _starts(MEMORY_ENTRIES)
-"""Where in the row each entry begins; and where behind the scan."""
+"""Index at which each entry begins: in the row, and for memory entries counted from the scan's
+end."""
 
 ROW_SIZE, MEMORY_SIZE = (sum(each.size for each in part) for part in (ENTRIES, MEMORY_ENTRIES))
-"""Values of the row before the scan, and behind it."""
+"""Number of values of the row before the scan, and after it."""
 
 _FEATURES = tuple(entry.name for entry in _with_masks(TABLES))
 _SEMANTIC = (*_FEATURES, "command", "clause", "odometry", "goal")
@@ -236,12 +238,12 @@ MODES = {
 
 
 def column(entry: Entry, name: str) -> int:
-    """Where in the row a column of an entry of one row lies."""
+    """Index in the row of a column of an entry that has one row."""
     return STARTS[entry.name] + entry.columns.index(name)
 
 
 def scan_space(lidar: LidarSpec) -> Box[np.float32]:
-    """The space of the entry "scan": ranges in metres; no return reads as the lidar's range."""
+    """The space of the entry "scan": metres; a missing return reads as the lidar's range."""
     return Box(0.0, lidar.range_max, (lidar.beams,), np.float32)
 
 

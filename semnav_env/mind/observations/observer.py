@@ -1,4 +1,4 @@
-"""Observation types: from what a robot believes to what an agent observes."""
+"""Observation types: they turn the robot's belief into the observation of an agent."""
 
 from __future__ import annotations
 
@@ -37,14 +37,14 @@ Array = NDArray[Any]
 
 
 class Moment(NamedTuple):
-    """What an observation may be made of: the robot's side of one step.
+    """The data from which an observation may be made, at one step.
 
     Attributes:
         tracker: ranges and features of the last scan, lidar frame, among others.
         tokens: of the command, shape (8, 5).
         instruction: the words in which the command was given.
-        see: what depth cameras on the robot give now; None if it has none.
-        payload: that the robot carries, see `SemNavEnv(payload=...)`; None without one.
+        see: function that gives the present cloud of depth cameras; None if there are none.
+        payload: the payload of the robot, see `SemNavEnv(payload=...)`; None without one.
     """
 
     tracker: BeliefTracker
@@ -73,11 +73,11 @@ class ObservationType(Protocol):
         ...
 
     def observe(self, moment: Moment) -> Any:
-        """A fresh observation."""
+        """Make a new observation."""
 
 
 class ExtraEntry(Protocol):
-    """An entry of one's own beside those of a mode.
+    """An entry of your own beside those of a mode.
 
     Attributes:
         name: its key in the observation.
@@ -90,22 +90,22 @@ class ExtraEntry(Protocol):
         ...
 
     def observe(self, moment: Moment) -> Any:
-        """A fresh value."""
+        """Make a new value."""
 
 
 class EntryObservation:
-    """A dictionary of the entries of a mode, and of one's own.
+    """A dictionary of the entries of a mode, and of extra entries.
 
     Args:
         mode: "semantic", "raw", "truth", "all" or "command", see `layout.MODES`.
-        extra: entries of one's own.
+        extra: entries of your own.
 
     Attributes:
-        exact: whether lidar and odometry are to have no errors and the scene is the floor plan's.
+        exact: whether lidar and odometry have no errors and the scene is that of the floor plan.
         observes_features: whether features of the scan are among the entries.
-        remembers: whether the row goes on with `layout.MEMORY_ENTRIES` behind the scan.
-        row_size: how many numbers the kernels write; after `space`.
-        places: of the entries in that row, by name; after `space`.
+        remembers: whether `layout.MEMORY_ENTRIES` follow the scan in the row.
+        row_size: number of values that the kernels write; set by `space`.
+        places: slices of the entries in that row, by name; set by `space`.
 
     Raises:
         ValueError: no such mode, or a name that is taken.
@@ -116,7 +116,9 @@ class EntryObservation:
             raise ValueError(f"no observation {mode!r:.80}; there are: {', '.join(MODES)}")
         taken = {entry.name for entry in extra} & set(MODES[mode])
         if taken:
-            raise ValueError(f"observation {mode!r} has {sorted(taken)} already; name yours anew")
+            raise ValueError(
+                f"observation {mode!r} has {sorted(taken)} already; choose other names"
+            )
         self.mode, self.extra, self.exact = mode, tuple(extra), mode == "truth"
         self.remembers = MEMORY_ENTRIES[0].name in MODES[mode]
         self.observes_features = "corners" in MODES[mode]
@@ -150,10 +152,10 @@ class EntryObservation:
         return gym.spaces.Dict(chosen | {entry.name: space for entry, space in self._extra})
 
     def observe(self, moment: Moment) -> dict[str, Array]:
-        """The entries as fresh arrays.
+        """The entries as new arrays.
 
         Raises:
-            ValueError: an entry of one's own is not in its space.
+            ValueError: an extra entry is not in its space.
         """
         row = np.empty(self.row_size, np.float32)
         self._write(row, moment.tracker.senses)
@@ -166,7 +168,7 @@ class EntryObservation:
 
 
 def as_observation(value: object) -> ObservationType:
-    """An observation type from what `observation=` takes: a mode, or an object.
+    """Make an observation type from an argument `observation=`: a mode, or an object.
 
     Raises:
         ValueError: no such mode, or an object that makes no observations.

@@ -1,4 +1,4 @@
-"""Reads what an agent observes back into poses, goals and tables."""
+"""Reads observations back into poses, goals and tables."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ def read_odometry(observation: dict[str, NDArray[Any]]) -> tuple[Pose, Twist]:
 
 @dataclass(frozen=True)
 class SeenGoal:
-    """The goal as an observation carries it, robot frame.
+    """The goal in an observation, robot frame.
 
     Attributes:
-        kind: what reaching it means.
+        kind: the kind of the goal.
         pose: (x, y, heading), robot frame.
         door: (start, end) of its doorway, robot frame, if it has one.
     """
@@ -56,7 +56,7 @@ class SeenGoal:
 
     @classmethod
     def read(cls, values: NDArray[np.float32]) -> SeenGoal:
-        """From the "goal" entry of an observation."""
+        """Read a goal from the "goal" entry of an observation."""
         value = dict(zip(GOAL.columns, values.tolist(), strict=True))
         start = value["door_start_x"], value["door_start_y"]
         end = value["door_end_x"], value["door_end_y"]
@@ -66,7 +66,7 @@ class SeenGoal:
 
     @property
     def values(self) -> NDArray[np.float32]:
-        """As the "goal" entry of an observation; the inverse of `read`."""
+        """The values of the "goal" entry of an observation; the inverse of `read`."""
         x, y, heading = self.pose
         kinds = np.arange(len(GOAL_KINDS)) == self.kind
         door = np.zeros(5) if self.door is None else np.append(np.ravel(self.door), 1.0)

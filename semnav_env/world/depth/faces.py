@@ -31,7 +31,7 @@ def box(
 
 
 def prism(corners: Sequence[Point], height: float) -> Iterator[FloatArray]:
-    """The sides of what stands on a polygon, and its top where that has four corners or three.
+    """The sides of a prism on a polygon, and its top if that has three or four corners.
 
     Cameras of a robot look over the top of few things, and only boxes have one here.
     """

@@ -1,4 +1,4 @@
-"""What a stereo pair makes of an exact depth image: gaps, errors and points."""
+"""Simulates a stereo pair on an exact depth image: gaps, errors and points."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ PATCH = 8
 """Side of the patches of pixels that lack texture together, pixels."""
 
 _HIDDEN = 1.08
-"""What the second eye sees is in the way if it is nearer by this factor: a slanted wall differs by
-less from pixel to pixel."""
+"""Factor of depth by which a surface that the second camera sees must be nearer to hide a point: a
+slanted wall differs by less from pixel to pixel."""
 
 _EDGE = 0.1
 """Relative difference of the reciprocal depths of neighbours that makes an edge."""
 
 _PIXELS, _PATCHES, _EDGES, _MISMATCHES = range(4)
-"""Which stream of random numbers of a camera."""
+"""Streams of random numbers of a camera."""
 
 
 @kernel
@@ -42,9 +42,9 @@ def match(
     """Write the points that a camera measures; returns how many.
 
     Args:
-        inverse: reciprocal depths that the first eye sees, 1/m, shape (rows, columns).
-        faces: what each of its pixels sees.
-        second: reciprocal depths that the second eye sees.
+        inverse: reciprocal depths of the first camera, 1/m, shape (rows, columns).
+        faces: index of the face that each of its pixels sees.
+        second: reciprocal depths of the second camera, 1/m.
         kinds: `FaceKind` of each face.
         missing: share of the pixels without a match, by kind.
         us: of the columns.

@@ -1,4 +1,4 @@
-"""A floor plan in three dimensions, and what it is made of."""
+"""A floor plan in three dimensions, and its faces."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ NO_JAMB = -1
 
 
 class FaceKind(IntEnum):
-    """What a face belongs to: how well stereo cameras match it depends on that."""
+    """The kind of thing to which a face belongs; it determines how well stereo cameras match it."""
 
     WALL = 0
     FRAME = 1
@@ -74,10 +74,10 @@ class RaisedFace(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class RaisedPlan:
-    """A floor plan in three dimensions; floor and ceiling are where the sensor is.
+    """A floor plan in three dimensions; floor and ceiling extend around the sensor.
 
     Attributes:
-        plan: what was raised.
+        plan: the floor plan.
         corners: of each face in order around it, world frame, metres, shape (n, 4, 3).
         kinds: `FaceKind` of each face, shape (n,).
         jambs: 2 i and 2 i + 1 for the jambs of door i of the plan, else `NO_JAMB`, shape (n,).

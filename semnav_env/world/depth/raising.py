@@ -23,17 +23,17 @@ Height: TypeAlias = Annotated[float, Bounds(0.001, 100.0, "m")]
 
 @dataclass(frozen=True)
 class RaiseSettings:
-    """Heights, and what a plan does not say of door frames.
+    """Heights, and the sizes of door frames, which a plan does not contain.
 
     Attributes:
         ceiling: of the ceiling above the floor, metres.
         lintel: of the lower edge of the lintel, metres; also of leaves.
         jamb_width: width of a jamb along the wall, metres; it lies outside the opening, so that
-            the body passes where the plan says. Mes 2021, 6.3.5: jambs are about 0.10 m wide.
+            the body passes as in the plan. Mes 2021, 6.3.5: jambs are about 0.10 m wide.
         jamb_depth: of the frame across the wall, metres, half of it on each side.
-        furniture: height of what the plan calls furniture, metres: a desk.
-        person: height of people on the floor, metres. Somebody who lies on the back is as high as
-            the chest is deep, about 0.25 m, and is clothed; the plan does not say who sits.
+        furniture: height of the furniture of the plan, metres: a desk.
+        person: height of people on the floor, metres. A person who lies on the back is as high as
+            the depth of the chest, about 0.25 m, with clothes; the plan does not mark who sits.
     """
 
     ceiling: Height = 2.5
@@ -44,7 +44,7 @@ class RaiseSettings:
     person: Height = 0.3
 
     def __post_init__(self) -> None:
-        """Refuse what cannot be built."""
+        """Refuse sizes that cannot be built."""
         check_fields(self)
         for name in ("lintel", "furniture", "person", "jamb_width", "jamb_depth"):
             value = getattr(self, name)
@@ -117,7 +117,7 @@ def _outlined(surface: Surface, height: float, kind: FaceKind) -> Iterator[Raise
 def _wall(
     surface: Surface, settings: RaiseSettings, windows: tuple[PlanWindow, ...]
 ) -> Iterator[RaisedFace]:
-    """A wall with holes: whole height beside a window, and what is below and above it."""
+    """A wall with windows: full height beside a window, and the parts below and above it."""
     for a, b in _segments(surface):
         line = shapely.LineString((a, b))
         holes = [window for window in windows if _lies_on(window, line)]

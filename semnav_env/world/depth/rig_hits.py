@@ -1,4 +1,4 @@
-"""What depth cameras measure in a raised floor plan: from a pose to a point cloud."""
+"""Simulates depth cameras in a raised floor plan: from a pose to a point cloud."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from semnav_features.clouds.point_cloud import PointCloud
 from semnav_features.frames import FloatArray, Pose
 
 PERSON_HEIGHT = 1.75
-"""Of the people that move in a plan, metres."""
+"""Height of a walking person, metres."""
 
 
 class RigHits(NamedTuple):
-    """What the cameras measured, and, which no robot knows, what they saw.
+    """The measured cloud, with the true faces of its points, which no robot knows.
 
     Attributes:
-        cloud: of the points.
+        cloud: the measured points.
         jambs: `RaisedPlan.jambs` of the face that each point lies on, shape (n,).
         kinds: its `FaceKind`, shape (n,).
     """
@@ -44,7 +44,7 @@ def rig_hits(
     rng: np.random.Generator,
     moving: tuple[FloatArray, FloatArray] = NO_MOVING_THINGS,
 ) -> RigHits:
-    """The cloud that depth cameras give, and what each of its points lies on.
+    """The cloud of depth cameras, with the face on which each of its points lies.
 
     Args:
         rig: the cameras.

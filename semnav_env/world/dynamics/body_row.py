@@ -1,4 +1,4 @@
-"""The robot as one row of numbers, as the kernels of people and doors take it."""
+"""The robot as one row of numbers, for the kernels of people and doors."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ BODY_COLUMNS = (
     *("half_length", "half_width"),  # metres
     *("velocity_x", "velocity_y", "yaw_rate"),  # of the centre, world frame, m/s and rad/s
 )
-"""What the columns of a body's row are."""
+"""Names of the columns of a body's row."""
 
 BODY_X, BODY_Y, BODY_HEADING, HALF_LENGTH, HALF_WIDTH, BODY_VX, BODY_VY, BODY_YAW_RATE = range(
     len(BODY_COLUMNS)
 )
-"""Where in the row each of `BODY_COLUMNS` lies."""
+"""Index in the row of each of `BODY_COLUMNS`."""
 
 
 def as_body(robot: RobotSpec, pose: Pose, velocity: Twist) -> FloatArray:

@@ -1,4 +1,4 @@
-"""People who walk about in a floor plan."""
+"""People who walk in a floor plan."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ ARRIVAL_DISTANCE = 0.5
 """Length of way left at which a person has arrived and chooses another place, metres."""
 
 LEAST_PROGRESS = 0.2
-"""Least shortening of the way left that counts as progress, metres; less is swaying in a jam."""
+"""Least decrease of the remaining path that counts as progress, metres; less is swaying in a
+jam."""
 
 
 class Crowd:
@@ -56,14 +57,14 @@ class Crowd:
         self._routes = Destinations(plan)
 
     def begin(self, start: Pose, rng: np.random.Generator) -> None:
-        """Put everybody at a free place and choose where each goes first.
+        """Put each person at a free place and choose their first destinations.
 
         Args:
-            start: pose of the robot; nobody begins near it.
+            start: pose of the robot; no person begins near it.
             rng: source of randomness for the whole episode.
 
         Raises:
-            ValueError: there is no room for so many.
+            ValueError: there is no room for so many people.
         """
         walking, count = self._dynamics.walking, len(self.places)
         self._rng = rng
@@ -80,7 +81,7 @@ class Crowd:
     def step(
         self, body: FloatArray, leaves: FloatArray, guard: float, touch: float, seconds: float
     ) -> None:
-        """Let everybody walk for a time step.
+        """Let all people walk for a time step.
 
         Args:
             body: the robot, see `nearest_on_body`.
@@ -106,7 +107,7 @@ class Crowd:
         return {key: value for key, value in self.__dict__.items() if key != "_ways"}
 
     def _update_wishes(self, seconds: float) -> None:
-        """Update the desired velocities; who has arrived or is stuck chooses another place."""
+        """Update the desired velocities; arrived and stuck people choose another place."""
         for i, ways in enumerate(self._ways):
             x, y = self.places[i]
             ahead, aside, left = look_ahead(*ways.field, x, y)

@@ -48,7 +48,7 @@ class Destinations:
         return Geodesic(self._floor_plan, clearance=PEOPLE_CLEARANCE)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Ways are large and worked out anew after unpickling."""
+        """Leave out the shortest ways, which are large and computed again after unpickling."""
         return {key: value for key, value in self.__dict__.items() if key != "_geodesic"}
 
 

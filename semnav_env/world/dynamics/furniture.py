@@ -1,4 +1,4 @@
-"""Moves furniture away from where the plan draws it, and adds boxes that the plan does not have."""
+"""Moves furniture from its place in the plan, and adds boxes that the plan does not have."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from semnav_env.world.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_features.frames import Point
 
 POSITION_STD = 0.6
-"""Standard deviation of how far a piece of furniture is moved along x and along y, metres."""
+"""Standard deviation of the displacement of a piece of furniture along x and along y, metres."""
 
 HEADING_STD = math.radians(20.0)
 """Standard deviation of the angle by which a piece of furniture is rotated, radians."""
@@ -30,8 +30,8 @@ DOOR_CLEARANCE = 1.0
 """Radius around the middle of a doorway in which nothing is put, metres."""
 
 LANE_WIDTH = 1.0
-"""Width of the wide ways, metres: where one as wide leads now, one still leads after a piece was
-put down. The same holds for ways of the width of the robot."""
+"""Width of the wide passages, metres: a passage of this width still exists after a piece was put
+down. The same holds for passages of the width of the robot."""
 
 LANE_MARGIN = 0.1
 """Margin added to the robot's width for the narrow ways, metres."""
@@ -64,7 +64,7 @@ def with_moved_furniture(
         dynamics: share of the furniture that moves, and number of boxes.
         robot: everything stays reachable for it.
         rng: source of randomness.
-        keep: where the robot will stand; nothing is put near it. None if that is not known.
+        keep: start of the robot; nothing is put near it. None if it is not known.
     """
     room = FurnitureMover(plan, robot, keep)
     for index, surface in enumerate(plan.surfaces):
@@ -146,7 +146,7 @@ class FurnitureMover:
         return piece is not None
 
     def _placed(self, draw: Callable[[], Polygon], plan: FloorPlan) -> Surface | None:
-        """The first drawn piece that stands free, at no door, and parts no way in two."""
+        """The first drawn piece that stands free, at no door, and divides no passage."""
         for _ in range(MAX_DRAWS):
             piece = draw()
             if piece.intersects(self._kept_free) or len(plan.furniture.query(piece, "intersects")):
@@ -172,7 +172,7 @@ def free_ways(plan: FloorPlan, half: float) -> list[Polygon]:
 
 
 def _ways_beside(piece: Polygon, ways: Ways, half_lanes: tuple[float, ...]) -> Ways | None:
-    """The ways beside a piece; None if it parts one of them in two."""
+    """The passages beside a piece; None if it divides one of them."""
     left: Ways = []
     for half, parts in zip(half_lanes, ways, strict=True):
         whole = _whole_without(piece.buffer(half), parts)
@@ -183,7 +183,7 @@ def _ways_beside(piece: Polygon, ways: Ways, half_lanes: tuple[float, ...]) -> W
 
 
 def _whole_without(piece: Polygon, parts: list[Polygon]) -> list[Polygon] | None:
-    """What is left of the parts when a piece is taken out of them; None if one falls into two."""
+    """The regions without the area of a piece; None if one falls into two."""
     left: list[Polygon] = []
     for part in parts:
         if not part.intersects(piece):

@@ -44,7 +44,7 @@ class PlanLeaf:
     swing: float
 
     def tip(self, angle: float) -> Point:
-        """Its free end after opening by `angle` (of the sign of `swing`), metres."""
+        """The free end of the leaf after opening by `angle` (of the sign of `swing`), metres."""
         direction = self.closed + angle
         x, y = self.hinge
         return x + self.length * math.cos(direction), y + self.length * math.sin(direction)

@@ -78,7 +78,7 @@ class Moving:
         self.discs[:, :2] = self.crowd.places
 
     def note(self, pose: Pose, velocity: Twist) -> None:
-        """Record how near people and robot are now."""
+        """Record the present gaps between people and robot."""
         body = as_body(self._robot, pose, velocity)
         self.record.note(body, self.discs, self.crowd.velocities, self._seconds)
 
@@ -106,7 +106,7 @@ def _max_point_speed(robot: RobotSpec) -> float:
 
 
 def _step_length(robot: RobotSpec, velocity: Twist, seconds: float) -> float:
-    """Upper bound of how far any point of the body gets in the next step, metres."""
+    """Upper bound of the motion of any point of the body in the next step, metres."""
     forward, left, yaw_rate = velocity
     gain = seconds * (robot.max_acceleration + robot.max_turn_acceleration * _turning_radius(robot))
     return (

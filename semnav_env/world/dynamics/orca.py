@@ -152,7 +152,7 @@ def nearest_allowed(
 
     Args:
         planes: shape (k, 3).
-        hard: the first so many are not moved.
+        hard: number of the first planes that are not moved.
         slack: speed by which the others are moved back, m/s.
         wish: m/s.
         limit: largest speed, m/s.

@@ -1,4 +1,4 @@
-"""The floor plan of an episode: as drawn, or with leaves hung and furniture moved."""
+"""The floor plan of an episode: as drawn, or with added leaves and moved furniture."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class PlanSource:
     """Makes the floor plan of each episode.
 
     Args:
-        default: the plan where no other is asked for: a name, a path or a plan.
-        dynamics: settings of what changes.
-        robot: moved furniture leaves every way free for it.
+        default: the plan if no other is requested: a name, a path or a plan.
+        dynamics: settings of people, doors and furniture.
+        robot: the body for which moved furniture leaves every passage free.
 
     Raises:
         ValueError: `dynamics` is something else.
@@ -39,7 +39,7 @@ class PlanSource:
         pose: object = None,
         rng: np.random.Generator | None = None,
     ) -> FloorPlan:
-        """The plan of an episode; the very plan that was loaded if nothing of it changes.
+        """The plan of an episode; the same object as loaded if nothing of it changes.
 
         Args:
             floor_plan: a name, a path or a plan; the default if not given.
@@ -73,7 +73,7 @@ class PlanSource:
 
 
 def _point(pose: Any) -> Point | None:
-    """The place of a pose that was asked for; None if it is malformed (refused elsewhere)."""
+    """The position of a requested pose; None if it is malformed (refused elsewhere)."""
     try:
         x, y, _ = (float(value) for value in pose)
     except (TypeError, ValueError):

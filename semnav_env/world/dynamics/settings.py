@@ -1,4 +1,4 @@
-"""Settings of what changes during and between episodes; everything is off by default."""
+"""Settings of people, doors and furniture that change; everything is off by default."""
 
 from __future__ import annotations
 
@@ -21,15 +21,14 @@ equation (12))."""
 
 @dataclass(frozen=True)
 class Walking:
-    """How people walk.
+    """Settings of the walk of people.
 
     Attributes:
         radius: radius of a person, a disc for lidar and physics, metres.
         speed: mean of the desired speeds, m/s (Helbing and Molnar 1995).
         spread: standard deviation of the desired speeds, m/s; cut off at two of them.
-        patience: seconds without getting nearer after which somebody walks elsewhere.
-        see_robot: whether people keep away from the robot by themselves. They never step into it
-            either way.
+        patience: time without progress after which a person chooses another place, seconds.
+        see_robot: whether people evade the robot. In both cases they never step into it.
     """
 
     radius: Annotated[float, Bounds(0.1, 0.5, "m")] = 0.25
@@ -45,11 +44,11 @@ class Walking:
 
 @dataclass(frozen=True)
 class Swinging:
-    """How doors open and close.
+    """Settings of the motion of doors.
 
     Attributes:
         open_for: shortest and longest time that a door stands open, seconds.
-        closed_for: the same for closed; so a closed door always opens again.
+        closed_for: the same for a closed door, so a closed door always opens again.
         rate: angular speed of the leaf, rad/s.
     """
 
@@ -72,9 +71,9 @@ class Dynamics:
         model: model of how they avoid each other, "social_force" or "orca".
         changing_doors: probability that a door with room to swing opens and closes in an episode.
             Every such door gets a leaf if the plan draws none.
-        moved_furniture: probability that a piece of furniture of the plan is found elsewhere.
+        moved_furniture: probability that a piece of furniture of the plan is moved.
         added_boxes: number of boxes that are added to the plan in each episode.
-        victims: number of people who lie or sit on the floor of rooms, somewhere else in each
+        victims: number of people who lie or sit on the floor of rooms, at other places in each
             episode.
         walking: how people walk.
         swinging: how doors move.

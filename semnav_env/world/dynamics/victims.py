@@ -1,4 +1,4 @@
-"""People who lie or sit on the floor of rooms, among the furniture, and are to be found."""
+"""Victims: people who lie or sit on the floor of rooms, among the furniture."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from semnav_env.world.maps.floor_plan import FloorPlan, Material
 from semnav_features.frames import Point
 
 POSTURES = ((1.7, 0.5), (0.7, 0.5))
-"""Length and width of somebody who lies, and of somebody who sits, metres."""
+"""Length and width of a lying person, and of a sitting person, metres."""
 
 VICTIM_SPACING = 1.5
-"""Least distance between two victims, metres: a detector takes those side by side for one."""
+"""Least distance between two victims, metres: a detector takes two that are nearer for one."""
 
 VICTIM_DISTANCE = 1.0
-"""Largest distance of a victim's middle from where a robot can drive, metres: it comes near."""
+"""Largest distance of a victim's middle from a place that the robot can reach, metres."""
 
 MAX_TRIES = 5
-"""How often all of them are laid down anew: draws at random may miss a small free place."""
+"""Largest number of attempts to place all victims: random draws may miss a small free place."""
 
 
 def with_victims(
@@ -32,11 +32,11 @@ def with_victims(
     """The plan with people on the floor of rooms and open areas, and no way blocked.
 
     Args:
-        plan: as it is without them.
-        count: how many.
-        robot: everything stays reachable for it, and it can come near each of them.
+        plan: the plan without victims.
+        count: number of victims.
+        robot: the body for which everything stays reachable, and which can come near each victim.
         rng: source of randomness.
-        keep: where the robot will stand; nobody lies near it. None if that is not known.
+        keep: start of the robot; no victim lies near it. None if it is not known.
 
     Raises:
         ValueError: there is no room for so many.
@@ -52,7 +52,7 @@ def with_victims(
 def _with_all(
     plan: FloorPlan, count: int, mover: FurnitureMover, rng: np.random.Generator
 ) -> FloorPlan | None:
-    """The plan with all of the people; None if those laid first left no place for the others."""
+    """The plan with all victims; None if the first ones left no place for the others."""
     rooms = [region.polygon for region in (*plan.rooms, *plan.areas)]
     ways = max(free_ways(plan, mover.half_lane), key=lambda way: way.area)
     places = [room.intersection(ways.buffer(VICTIM_DISTANCE)) for room in rooms]
@@ -70,7 +70,7 @@ def victims_of(plan: FloorPlan) -> list[Polygon]:
 
 
 def _lay(mover: FurnitureMover, place: BaseGeometry, rng: np.random.Generator) -> bool:
-    """Lay somebody down with the middle in a place; returns whether that was possible."""
+    """Place a victim with the middle in an area; returns whether this was possible."""
     if place.is_empty:
         return False
     x, y = np.array(POSTURES[int(rng.integers(len(POSTURES)))]) / 2

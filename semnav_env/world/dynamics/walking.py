@@ -100,7 +100,7 @@ def _worst(
     walls: Any,
     leaves: FloatArray,
 ) -> tuple[float, float, float]:
-    """How deep person i at (x, y) would be in something, and the direction out of it."""
+    """Deepest overlap of person i at (x, y) with anything, and the direction out of it."""
     wall_x, wall_y = nearest_wall(x, y, walls, leaves)
     dx, dy = x - wall_x, y - wall_y
     distance = max(math.hypot(dx, dy), 1e-9)

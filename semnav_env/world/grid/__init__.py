@@ -1,13 +1,13 @@
-"""Where a body can be, how far a place is, and which cells are near: questions that grids answer.
+"""Functions on grids: reachable poses, distances, costs of paths, and cells in view.
 
-- `cells.Grid`: where the cells lie.
-- `occupancy`: the cells that something solid passes through, or comes near.
+- `cells.Grid`: corner, spacing and size of a grid.
+- `occupancy`: the cells that solid segments pass through or come near.
 - `distance`: how far each cell is from the nearest one that is marked.
-- `costs`: the least cost of the way from each cell; the way itself; the nearest cell with one.
+- `costs`: the least cost of a path from each cell; the path; the nearest cell with a path.
 - `rays`: the cells that are in view of a sensor.
 - `poses`: the poses that a rectangular body reaches, turning where it must.
 
-Nothing here knows floor plans. `semnav_env.world.maps` asks these questions of a plan
-(`geodesic`, `reach`, `reachability`); whether a body has room at one exact pose is geometry without
-a grid (`maps.placement`).
+These modules do not use floor plans. `semnav_env.world.maps` applies them to a plan (`geodesic`,
+`reach`, `reachability`). Whether a body has room at one exact pose is computed without a grid
+(`maps.placement`).
 """

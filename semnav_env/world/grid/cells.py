@@ -19,8 +19,8 @@ class Grid:
         west: x of the first column, metres.
         south: y of the first row, metres.
         spacing: distance between neighbouring cells of a row or a column, metres.
-        rows: how many.
-        columns: how many.
+        rows: number of rows.
+        columns: number of columns.
     """
 
     west: float
@@ -60,12 +60,12 @@ class Grid:
 
     @property
     def x(self) -> FloatArray:
-        """Where the columns lie, metres, shape (columns,)."""
+        """Coordinates x of the columns, metres, shape (columns,)."""
         return np.asarray(self.west + self.spacing * np.arange(self.columns), np.float64)
 
     @property
     def y(self) -> FloatArray:
-        """Where the rows lie, metres, shape (rows,)."""
+        """Coordinates y of the rows, metres, shape (rows,)."""
         return np.asarray(self.south + self.spacing * np.arange(self.rows), np.float64)
 
     def points(self, cells: NDArray[np.int64]) -> FloatArray:

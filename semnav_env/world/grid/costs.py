@@ -1,8 +1,8 @@
-"""The cheapest ways over a grid of cells with eight neighbours each.
+"""Least-cost paths on a grid of cells with eight neighbours each.
 
-`scipy.sparse.csgraph.dijkstra` gives the same costs to the last bit, in 7 to 11 times the processor
-time without that of making its graph: 24 instead of 3.1 ms on office:large:1, 8.3 instead of 1.1 ms
-on office_cross (`python -m studies grids`).
+`scipy.sparse.csgraph.dijkstra` gives the same costs to the last bit. It needs 7 to 11 times the
+processor time, not counting the time to build its graph: 24 instead of 3.1 ms on office:large:1,
+8.3 instead of 1.1 ms on office_cross (`python -m studies grids`).
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ make many rounds, more let cells be worked on again and again. It changes no res
 
 
 def costs_from(cell: tuple[int, int], weight: FloatArray, spacing: float) -> FloatArray:
-    """The least cost of the way between a cell (row, column) and each other, see `least_costs`.
+    """The least cost of a path between a cell (row, column) and each other, see `least_costs`.
 
     Args:
-        cell: where ways begin, or lead to: they cost the same in both directions.
-        weight: cost of a metre of way in each cell, shape (rows, columns).
+        cell: begin or end of the paths, which cost the same in both directions.
+        weight: cost of a metre of path in each cell, shape (rows, columns).
         spacing: of the cells, metres.
     """
     diagonal = spacing * math.sqrt(2.0)
@@ -46,14 +46,14 @@ def least_costs(
 ) -> FloatArray:
     """The least cost from every cell to a source, shape (rows, columns); infinite if cut off.
 
-    A step costs its length times the weight of the ground. Cells wait in no order, those that are
-    reached within the next round apart from the others: the same costs to the last bit as with
-    the priority queue of Dijkstra's algorithm, in less time.
+    A step costs its length times the weight of the ground. Waiting cells are not sorted; only those
+    that are reached within the next round are kept apart. The costs are the same to the last bit as
+    with the priority queue of Dijkstra's algorithm, and need less time.
 
     Args:
         sources: cells as (row, column), shape (S, 2).
-        first: cost at each source, shape (S,); one that is not finite is no source.
-        weight: cost of a unit of length in each cell; infinite where no way leads.
+        first: cost at each source, shape (S,); a cell whose cost is not finite is no source.
+        weight: cost of a unit of length in each cell; infinite where no path leads.
         straight: length of a step to a neighbour in the same row or column.
         diagonal: length of a step to another neighbour.
         both: whether a step counts the mean weight of its two cells, so that it costs the same in
@@ -116,7 +116,7 @@ def least_costs(
 def _next_round(
     waiting: NDArray[np.int64], soon: NDArray[np.int64], cost: FloatArray, limit: float
 ) -> tuple[int, int]:
-    """Move the cells that are reached below `limit` to `soon`; how many are in each then."""
+    """Move the cells that are reached below `limit` to `soon`; returns the sizes of both lists."""
     soons = laters = 0
     for cell in waiting:
         if cost[cell] < limit:
@@ -170,7 +170,7 @@ def nearest_reached(
 ) -> tuple[int, int]:
     """The nearest cell (row, column) with a finite cost, the first of those equally near.
 
-    It is sought in a square of cells, which grows until nothing outside it can be nearer.
+    The search covers a square of cells that grows until no cell outside it can be nearer.
 
     Args:
         field: costs, shape (rows, columns).
@@ -204,7 +204,7 @@ def nearest_reached(
 def cost_at(
     field: FloatArray, west: float, south: float, spacing: float, x: float, y: float
 ) -> float:
-    """The cost at a point by way of the best of the nearest nine cells, metres."""
+    """The cost at a point through the best of the nearest nine cells, metres."""
     row, column = round((y - south) / spacing), round((x - west) / spacing)
     best = np.inf
     for r in range(max(row - 1, 0), min(row + 2, field.shape[0])):

@@ -2,7 +2,7 @@
 
 A flood fill over poses: the centre of the rectangle lies on a cell and its heading is one of a few;
 from a pose it moves to the next cell or the next heading. A body covers every cell that it touches,
-so a place that is found reachable is so with a few centimetres to spare.
+so a place that is found reachable has a margin of a few centimetres.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class Reach:
         states: `REACHED` for the poses in which it can be there, shape (rows, columns, headings).
         angles: the headings, radians, evenly spread over `turn` from 0, shape (headings,).
         turn: half a turn, or a whole one, radians.
-        grid: where the cells lie.
+        grid: corner, spacing and size of the grid.
     """
 
     cells: NDArray[np.bool_]
@@ -50,7 +50,7 @@ class Reach:
         return float(self.cells.sum()) * self.grid.spacing**2
 
     def near(self, place: BaseGeometry, within: float = 0.0) -> bool:
-        """Whether the centre gets within a distance of a place, metres, up to half a cell."""
+        """Whether the centre can come within a distance of a place, metres, up to half a cell."""
         area = place.buffer(max(within, 0.75 * self.grid.spacing))
         if area.is_empty:  # as what is left of a room that is narrower than a robot
             return False
@@ -63,7 +63,7 @@ class Reach:
         return bool(shapely.contains_xy(area, *points.T).any())
 
     def has(self, x: FloatArray, y: FloatArray, heading: FloatArray) -> NDArray[np.bool_]:
-        """Whether the poses nearest to some are reached, arrays of one shape."""
+        """Whether the nearest poses of the grid to given poses are reached, arrays of one shape."""
         row, column = self.grid.cells(x, y)
         count = len(self.angles)
         k = np.rint(heading % self.turn / self.turn * count).astype(int) % count
@@ -83,7 +83,7 @@ def reach_in_grid(
 
     Args:
         blocked: the solid cells, shape (rows, columns); those at the rim count as solid, too.
-        grid: where they lie.
+        grid: corner, spacing and size of the grid.
         size: length and width of the body, metres.
         headings: number of headings of the body, evenly spread over `turn`.
         cell: row and column of the start.
@@ -145,8 +145,8 @@ def _flood(
 ) -> tuple[NDArray[np.bool_], NDArray[np.uint8]]:
     """The cells and the poses that the centre reaches, by a flood fill over cells and headings.
 
-    Where nothing solid is within `far` cells, all headings are free and the cell is visited once;
-    elsewhere each heading is a state of its own.
+    A cell without a solid cell within `far` cells is visited once, because all headings are free.
+    In other cells each heading is a state of its own.
 
     Args:
         blocked: the solid cells.
@@ -210,7 +210,7 @@ def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
 
 @kernel
 def _wide(blocked: NDArray[np.bool_], far: int) -> NDArray[np.bool_]:
-    """Whether nothing solid is in the square of `far` cells to all sides of each cell.
+    """Whether the square of `far` cells to all sides of each cell has no solid cell.
 
     `total` is the summed-area table of the solid cells: the count in any rectangle is a sum of
     four of its entries.

@@ -34,8 +34,8 @@ def mark_in_view(
         spacing: between neighbouring cells, metres.
         eye: pose of the sensor in the frame of the grid.
         directions: unit vectors of the rays in the sensor frame, shape (n, 2).
-        ranges: where the rays end, metres, shape (n,); inf for no end.
-        range_max: farther cells are not seen, metres.
+        ranges: lengths of the rays, metres, shape (n,); inf for no end.
+        range_max: largest distance of a cell in view, metres.
     """
     rows, columns = cells.shape
     c, s = np.cos(eye[2]), np.sin(eye[2])

@@ -1,6 +1,6 @@
-"""Random numbers that are a function of where they are used, not of what was drawn before.
+"""Counter-based random numbers: a function of their key, not of earlier draws.
 
-A number is a hash of a key (seed, episode, step) and an index. So it does not depend on the
+A number is a hash of a key (seed, episode, step) and an index. Therefore it does not depend on the
 order of calls, on how environments are batched or on how many threads compute them, and there
 is no state to save.
 """

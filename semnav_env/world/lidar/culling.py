@@ -144,7 +144,7 @@ def _grid(segments: FloatArray, least_cell: float = CELL_SIZE) -> np.ndarray:
 
 @kernel
 def cell_of(grid: np.ndarray, x: float, y: float) -> Any:
-    """Which list (int) a lidar at (x, y) needs: its cell's, or the last one outside the grid."""
+    """Index (int) of the list for a lidar at (x, y): by its cell, or the last outside the grid."""
     g = grid[0]
     column, row = (x - g.x) // g.cell, (y - g.y) // g.cell
     if 0 <= column < g.columns and 0 <= row < g.rows:
@@ -159,7 +159,7 @@ def _centre(g: Any, cell: int) -> tuple[float, float]:
 
 @kernel
 def _reach(g: Any, range_max: float) -> Any:
-    """How far from a cell's centre a segment may be, with a margin for rounding."""
+    """Largest distance of a segment from a cell's centre, with a margin for rounding."""
     return range_max + g.cell * math.sqrt(0.5) + 1e-9
 
 

@@ -1,4 +1,4 @@
-"""A lidar in a floor plan: from the robot's pose to what the lidar sends."""
+"""A lidar in a floor plan: from the robot's pose to measured ranges."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from semnav_features.scan import Scan
 
 Key: TypeAlias = tuple[int, int, int]
-"""(seed, episode, step), each at least 0 and below 2**63; the step counts sweeps."""
+"""(seed, episode, step), each at least 0 and below 2**63; the step counts scans."""
 
 
 @kernel
@@ -51,11 +51,11 @@ class Lidar:
     """A lidar on a robot in a floor plan; glass does not stop its beams.
 
     Args:
-        floor_plan: whose opaque segments the beams meet.
+        floor_plan: the floor plan whose opaque segments the beams meet.
         spec: a lidar's name or its spec.
         mount: pose of the lidar in the robot frame.
-        moving: what is seen besides: discs, shape (n, 3), and segments, shape (m, 4); read anew at
-            every scan.
+        moving: moving things: discs, shape (n, 3), and segments, shape (m, 4); read again at every
+            scan.
 
     Attributes:
         arrays: (grid, starts, ends, beams, sensor, discs, segments), as `measure` takes them;
@@ -76,7 +76,7 @@ class Lidar:
         self.arrays = (*self._culling.arrays, *tables, *moving)
 
     def ranges(self, robot_pose: Pose, key: Key, out: FloatArray | None = None) -> FloatArray:
-        """What each beam measures from `robot_pose` in the world: metres, shape (beams,).
+        """The measured range of each beam from `robot_pose` in the world, metres, shape (beams,).
 
         Written into `out` if given. -inf is too close, +inf no return (REP 117); never NaN.
         """
@@ -95,7 +95,7 @@ class Lidar:
         return out
 
     def scan(self, robot_pose: Pose, key: Key) -> Scan:
-        """`ranges` as a scan in the lidar frame, stamped with the time of sweep `key[2]`."""
+        """`ranges` as a scan in the lidar frame, with the time of scan `key[2]`."""
         from semnav_features.scan import Scan  # a simulator needs the ranges only
 
         spec = self.spec

@@ -1,4 +1,4 @@
-"""What a lidar's electronics do to an exact range: errors, dropouts and limits."""
+"""Errors, dropouts and limits of a lidar, applied to exact ranges."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 
 _WHOLE_EPISODE = -1
-"""Takes the place of the step in the key of what stays the same throughout an episode."""
+"""Replaces the step in the key of values that stay the same throughout an episode."""
 
 
 @kernel

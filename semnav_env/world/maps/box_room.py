@@ -1,4 +1,4 @@
-"""Numba kernels that tell whether a rectangle has room in a floor plan."""
+"""Kernels that test whether a rectangle has space in a floor plan."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from semnav_features.frames import FloatArray, Pose
 from semnav_features.kernels.compiling import kernel
 
 HAS_ROOM, HAS_NO_ROOM, IS_DOUBTFUL = 0, 1, 2
-"""What `box_room` answers; doubtful is what exact geometry must decide."""
+"""Answers of `box_room`; a doubtful case must be decided by exact geometry."""
 
 DOUBT = 1e-6
 """Distance between the outline of a rectangle and an edge below which rounding decides, metres."""
@@ -21,7 +21,7 @@ DOUBT = 1e-6
 
 @dataclass(frozen=True)
 class SolidEdges:
-    """What bounds the space in a floor plan, as `box_room` takes it; edges are x1, y1, x2, y2.
+    """The edges that bound the space in a floor plan, for `box_room`; rows are x1, y1, x2, y2.
 
     Attributes:
         edges: everything solid, and the outline, shape (n, 4), metres.

@@ -1,4 +1,4 @@
-"""One budget for every grid and table whose size follows from how large a floor plan is."""
+"""One budget for every grid and table whose size depends on the size of a floor plan."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def check_cells(count: float, what: str) -> None:
 
     Args:
         count: how many there would be.
-        what: they are, and what they follow from, for the message.
+        what: their kind and origin, for the message.
 
     Raises:
         FloorPlanError: names the number, and the budget.

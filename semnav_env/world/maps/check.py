@@ -1,4 +1,4 @@
-"""Everything that is wrong with a floor plan, for one robot."""
+"""Finds all faults of a floor plan for one robot."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from semnav_env.world.maps.units import unit_fault
 
 
 def check(plan: FloorPlan, robot: RobotSpec = WHEELCHAIR) -> list[PlanFault]:
-    """Everything found wrong with a plan; an empty list if nothing.
+    """Find all faults of a plan; the list is empty if there are none.
 
-    A plan that breaks a rule of floor plans gets that one fault. Otherwise it is searched for doors
-    as wide as in another unit than metres, for gaps
-    (to the outside, and out of rooms other than through their doors), for parts that overlap or
-    stand in doorways, and for open doors, rooms and ends of corridors that the robot cannot reach.
-    The robot starts in the largest corridor as a rectangle that turns where it must.
+    A plan that breaks a rule of floor plans gets only this fault. Otherwise it is searched for
+    doors whose width suggests another unit than metres, for gaps (to the outside, and out of rooms
+    other than through their doors), for parts that overlap or stand in doorways, and for open
+    doors, rooms and ends of corridors that the robot cannot reach. The robot starts in the largest
+    corridor as a rectangle that turns where it must.
 
     Args:
         plan: the plan.
-        robot: its length and width count.
+        robot: the body, of which length and width count.
     """
     try:
         check_plan(plan)

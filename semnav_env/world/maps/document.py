@@ -1,4 +1,4 @@
-"""A floor plan file as a JSON document of a bearable size; `schema` checks what it holds."""
+"""A floor plan file as a JSON document of limited size; `schema` checks its contents."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MAX_NUMBERS = 100_000
 """Largest number of coordinates in a file, two for each position."""
 
 TOO_DEEP = "nested too deeply; a plan needs eight levels"
-"""What is wrong with a document that Python cannot read for its depth."""
+"""Message about a document that Python cannot read because of its depth."""
 
 
 def read_text(path: Path) -> str:
@@ -87,7 +87,7 @@ def _check_sizes(document: object) -> None:
 
 
 def _numbers(document: object) -> int:
-    """How many numbers a document holds; counting stops beyond the limit."""
+    """Count the numbers of a document; the count stops beyond the limit."""
     count, todo = 0, [document]
     while todo and count <= MAX_NUMBERS:
         value = todo.pop()

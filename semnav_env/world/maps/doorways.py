@@ -1,4 +1,4 @@
-"""How far a doorway stands open, read off the leaves that hang in it."""
+"""The clear width of a doorway, from the leaves that hang in it."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from semnav_env.world.maps.floor_plan import FloorPlan, Material, PlanDoor, Surf
 from semnav_features.frames import heading_between, wrap_angle
 
 DRAWING_TOLERANCE = 0.05
-"""Distance within which two drawn things touch, metres: plans are drawn and measured this
-exactly."""
+"""Distance within which two drawn things touch, metres: the accuracy of drawn and measured
+plans."""
 
 NARROWEST_ROBOT = 0.5
 """Width of the narrowest robot, SPOT, metres; every open door leaves at least this much clear."""
 
 WIDE_DOOR = 2.0
-"""Width above which all doors of a plan must be before another unit than metres is thought of."""
+"""Width that all doors of a plan must exceed for a note that its unit may not be metres."""
 
 HALF_OPEN_ANGLE = math.radians(75.0)
 """Angle between a leaf and its opening below which the leaf narrows the way through, radians."""
@@ -60,7 +60,7 @@ def _near(door: PlanDoor, plan: FloorPlan) -> list[Surface]:
 
 
 def _uncovered(door: PlanDoor, near: list[Surface]) -> float:
-    """Longest stretch of the opening that no surface lies on or crosses, metres."""
+    """Longest part of the opening that no surface lies on or crosses, metres."""
     opening = LineString((door.start, door.end))
     solid = shapely.union_all([LineString(surface.points) for surface in near])
     free = opening.difference(solid.buffer(DRAWING_TOLERANCE / 2, cap_style="flat"))

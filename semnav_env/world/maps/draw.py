@@ -54,7 +54,7 @@ NAME_OFFSET = 0.3
 def draw_floor_plan(plan: FloorPlan, ax: Axes, names: bool = True) -> None:
     """Draw a plan in metres: walls black, glass blue, leaves brown, furniture grey.
 
-    What is assumed is dashed; open doors are green, closed ones red; regions are tinted.
+    Assumed parts are dashed; open doors are green, closed ones red; regions are tinted.
 
     Args:
         plan: the plan.
@@ -117,7 +117,7 @@ def save_picture(
         plan: the plan.
         path: file to write.
         dpi: dots per inch; the longest side is 12 inches.
-        faults: what is wrong with it, drawn as numbered circles with a list below.
+        faults: faults of the plan, drawn as numbered circles with a list below.
 
     Raises:
         ValueError: another suffix, or a folder.

@@ -23,7 +23,7 @@ WALL_MATERIALS = (Material.WALL, Material.GLASS)
 
 
 def faults(plan: FloorPlan) -> Iterator[PlanFault]:
-    """All faults of a plan except gaps and what a robot cannot reach."""
+    """All faults of a plan except gaps and unreachable places."""
     yield from _overlaps(plan)
     for door in plan.doors:
         yield from _unframed(door, plan)
@@ -46,7 +46,7 @@ def _overlaps(plan: FloorPlan) -> Iterator[PlanFault]:
 
 
 def _unframed(door: PlanDoor, plan: FloorPlan) -> Iterator[PlanFault]:
-    """Jambs that are neither on a wall nor on a pane of glass, but on a cabinet, say."""
+    """Jambs that are neither on a wall nor on a pane of glass, but for example on a cabinet."""
     for jamb in (door.start, door.end):
         owners = {s.material for s in _surfaces(plan, Point(jamb).buffer(DRAWING_TOLERANCE))}
         if not owners & set(WALL_MATERIALS):
@@ -55,7 +55,7 @@ def _unframed(door: PlanDoor, plan: FloorPlan) -> Iterator[PlanFault]:
 
 
 def _obstructed(door: PlanDoor, plan: FloorPlan) -> Iterator[PlanFault]:
-    """Things other than its leaf that stand in a doorway or right before it."""
+    """Things other than its leaf that stand in a doorway or directly before it."""
     opening = LineString((door.start, door.end))
     share = min(0.4, 2 * DRAWING_TOLERANCE / door.width)
     clear = shapely.ops.substring(opening, share, 1.0 - share, normalized=True)
@@ -68,7 +68,7 @@ def _obstructed(door: PlanDoor, plan: FloorPlan) -> Iterator[PlanFault]:
 
 
 def _fills(surface: Surface, opening: LineString) -> bool:
-    """Whether a surface is what closes a door."""
+    """Whether a surface closes a door."""
     return bool(LineString(surface.points).buffer(DRAWING_TOLERANCE).covers(opening))
 
 

@@ -1,4 +1,4 @@
-"""The immutable floor plan: what is solid, what is seen, and what things are called."""
+"""The immutable floor plan: solid surfaces, materials, and named doors and regions."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Surface:
     Attributes:
         points: (x, y) in metres, at least two.
         material: glass is not seen by the lidar.
-        assumed: closes what the source of the plan leaves open.
+        assumed: whether it closes a part that the source of the plan leaves open.
     """
 
     points: tuple[Point, ...]
@@ -99,7 +99,7 @@ class Region:
     Attributes:
         name: unique among the regions of the plan.
         polygon: metres.
-        assumed: the source of the plan does not show it.
+        assumed: whether the source of the plan does not show it.
     """
 
     name: str
@@ -122,7 +122,7 @@ NamedPart = TypeVar("NamedPart", PlanDoor, Region)
 """A door or a region of a plan."""
 
 Made = TypeVar("Made")
-"""What is derived from a plan."""
+"""Type of a value that is derived from a plan."""
 
 
 @dataclass(frozen=True)
@@ -191,7 +191,7 @@ class FloorPlan:
         return _frozen(np.array(rows, dtype=np.float64).reshape(-1, 4))
 
     def derived(self, make: Callable[[FloorPlan], Made]) -> Made:
-        """What a function makes of the plan alone; made once and shared by all who ask."""
+        """The result of a function of the plan alone; it is computed once and shared."""
         if make not in self._derived:
             self._derived[make] = make(self)
         made: Made = self._derived[make]
@@ -199,11 +199,11 @@ class FloorPlan:
 
     @cached_property
     def _derived(self) -> dict[Callable[[FloorPlan], Any], Any]:
-        """What has been derived so far."""
+        """Values that have been derived so far."""
         return {}
 
     def __getstate__(self) -> dict[str, Any]:
-        """The fields alone: what follows from them is made again where it is needed."""
+        """The fields alone; derived values are computed again where they are needed."""
         return {each.name: getattr(self, each.name) for each in fields(self)}
 
     def __deepcopy__(self, memo: dict[int, Any]) -> FloorPlan:
@@ -217,7 +217,7 @@ class FloorPlan:
 
     @property
     def scene(self) -> StillScene:
-        """`scene_by` the usual rules."""
+        """The scene by the default rules, see `scene_by`."""
         return self.scene_by(_USUAL_RULES)
 
     def scene_by(self, rules: DoorRules) -> StillScene:
@@ -229,7 +229,7 @@ class FloorPlan:
 
     @cached_property
     def _scenes(self) -> dict[DoorRules, StillScene]:
-        """The scenes that were asked for."""
+        """Scenes that were made so far."""
         return {}
 
     @property

@@ -1,8 +1,8 @@
 """Gaps in the walls of a plan: to the outside, and out of rooms other than through their doors.
 
-A space is what can be reached from a point without touching a wall, through gaps of any width. A
-space that is too narrow for every robot is no place: the hollow between the two faces of a wall, or
-the strip by which the outline of a room misses its wall.
+A space is the area that can be reached from a point without touching a wall, through gaps of any
+width. A space that is too narrow for every robot does not count: the hollow between the two faces
+of a wall, or the strip by which the outline of a room misses its wall.
 """
 
 from __future__ import annotations
@@ -24,18 +24,17 @@ Lines = NDArray[np.object_] | Sequence[LineString]
 
 
 HALF_LINE_WIDTH = 0.0005
-"""Half the thickness that walls are given to part the spaces between them, metres: next to
-nothing."""
+"""Half the thickness of walls that separates the spaces between them, metres: nearly zero."""
 
 MAX_GAP = 2.0
-"""Width of the widest gap, metres. Where nothing else tells the inside, it is what the walls
+"""Width of the widest gap, metres. Without other information, the inside is the area that the walls
 enclose when gaps up to this width are closed."""
 
 OUTLINE_ERROR = 0.3
 """Distance by which the outline of a room may miss its wall, metres."""
 
 OUTSIDE_MARGIN = MAX_GAP
-"""Width of the outside that is looked at around the boundary, metres."""
+"""Width of the outside that is examined around the boundary, metres."""
 
 
 def gaps(plan: FloorPlan) -> Iterator[PlanFault]:
@@ -130,7 +129,7 @@ def _spaces(plan: FloorPlan, solid: BaseGeometry) -> list[Polygon]:
 
 
 def _outside(plan: FloorPlan, solid: BaseGeometry) -> Polygon:
-    """The space that holds the south-west corner of the area looked at."""
+    """The space that contains the south-west corner of the area."""
     west, south, _, _ = plan.boundary.bounds
     corner = Point(west - 0.95 * OUTSIDE_MARGIN, south - 0.95 * OUTSIDE_MARGIN)
     return next(space for space in _spaces(plan, solid) if space.contains(corner))

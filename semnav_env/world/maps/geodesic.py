@@ -42,7 +42,7 @@ _NUMBERS = count()
 
 
 class Geodesic:
-    """Shortest ways of a robot's centre in one floor plan, each computed when it is asked for.
+    """Shortest ways of a robot's centre in one floor plan, each computed on demand.
 
     Args:
         floor_plan: the plan.
@@ -51,7 +51,7 @@ class Geodesic:
         clearance: distance from everything solid that every way keeps, metres.
 
     Attributes:
-        grid: where the cells lie.
+        grid: corner, spacing and size of the grid.
 
     Raises:
         FloorPlanError: the plan is too large for a grid.

@@ -53,7 +53,7 @@ def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
 
 
 def _at(path: Path) -> FloorPlan:
-    """The plan in a file, read anew only after the file has changed."""
+    """The plan in a file, which is read again only after a change of the file."""
     try:
         told = path.stat()
     except OSError:

@@ -24,7 +24,7 @@ _BOUNDARY_MARGIN = 0.5
 """Distance from the outermost wall to the boundary, metres."""
 
 _LEAST_REMNANT = 0.02
-"""Length from which on what a doorway leaves of a wall is kept, metres."""
+"""Least length of a remaining part of a wall beside a doorway that is kept, metres."""
 
 _MAX_JAMB_GAP = 0.4
 """Largest gap between a jamb and a wall that is closed by an assumed stretch of wall, metres."""
@@ -33,7 +33,7 @@ _MAX_JAMB_GAP = 0.4
 def plan_of_scene(scene: Scene, name: str, source: str = "") -> FloorPlan:
     """A floor plan of the walls and open doors of a scene, such as that of a `LineMap`.
 
-    Walls are cut where a door opens, and a jamb that hangs in the air, as where a wall's end was
+    Walls are cut where a door opens. A jamb without a wall, for example where a wall's end was
     never seen, is joined to the wall beside it. Doors that then still break a rule of floor plans
     (no wall near a jamb, less than half a metre clear) are left out. Rooms and corridors have no
     names in a map of lines, so the plan has none.

@@ -22,7 +22,7 @@ MARGIN = 0.05
 
 
 def corners(robot: RobotSpec) -> FloatArray:
-    """Of the footprint in the robot frame, counter-clockwise, shape (4, 2)."""
+    """Corners of the footprint in the robot frame, counter-clockwise, shape (4, 2), metres."""
     x, y = robot.length / 2, robot.width / 2
     return np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
 
@@ -48,7 +48,7 @@ def clearance(plan: FloorPlan, robot: RobotSpec, pose: Pose) -> float:
 def placement_error(
     plan: FloorPlan, robot: str | RobotSpec, pose: Pose, margin: float = 0.0
 ) -> str | None:
-    """Why a robot cannot stand at a pose, and a pose where it can; None if nothing is wrong.
+    """The reason why a robot cannot stand at a pose, with a free pose; None if it can.
 
     Args:
         plan: the plan.

@@ -1,4 +1,4 @@
-"""One thing that is wrong with a floor plan, and where."""
+"""A fault of a floor plan, with its position."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from semnav_features.frames import Point
 
 @dataclass(frozen=True)
 class PlanFault:
-    """Something in a plan that its author should mend.
+    """A fault in a plan that its author should correct.
 
     Attributes:
         part: name of the door or region that has the fault, or of the plan.

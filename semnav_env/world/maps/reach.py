@@ -46,11 +46,12 @@ def reach(
         width: width of the body, metres.
         spacing: spacing of the grid, metres; a large plan gets a coarser one.
         headings: number of headings of the body, evenly spread over `turn`.
-        start: where the body is instead, (x, y) in metres.
+        start: another start of the body, (x, y) in metres.
         turn: half a turn, or a whole one where it matters which end is the front, radians. At the
             start the body may have any heading that is free.
-        border: cells of the grid around the plan. No place counts that is nearer to the rim of the
-            grid than the body's corners reach, so a body right inside an outer wall needs more.
+        border: cells of the grid around the plan. A place does not count if it is nearer to the rim
+            of the grid than the body's corners reach. A body close to an outer wall needs more
+            cells.
 
     Raises:
         FloorPlanError: the plan is too large for a grid.

@@ -104,7 +104,7 @@ def _furniture_before(door: PlanDoor, plan: FloorPlan, robot: RobotSpec) -> str:
 
 
 def _inside(room: Region, doors: list[PlanDoor], robot: RobotSpec) -> BaseGeometry:
-    """Where the centre of a robot can be once the whole robot is in a room."""
+    """The places of the robot's centre at which the whole robot is in a room."""
     steps = shapely.union_all([_line(door) for door in doors]).buffer(robot.length / 2)
     return room.polygon.buffer(-robot.width / 2).difference(steps)
 

@@ -27,7 +27,7 @@ Properties: TypeAlias = dict[str, Any]
 """The properties of a feature."""
 
 Part: TypeAlias = Surface | PlanDoor | Region | Polygon
-"""What a feature of a floor plan becomes."""
+"""The part of a floor plan that is made from a feature."""
 
 
 SOLID_KINDS = frozenset(Material)
@@ -39,7 +39,7 @@ def read_plan(path: Path, *, follows_schema: bool = False) -> FloorPlan:
 
     Args:
         path: the file.
-        follows_schema: it is known to follow the schema, which takes long to check.
+        follows_schema: whether it is known to follow the schema, whose check takes long.
 
     Raises:
         FloorPlanError: names the file, the feature, what is wrong and what would be right.
@@ -86,7 +86,7 @@ def parse_plan(text: str, where: str, name: str, *, follows_schema: bool = False
 
 
 def _door_widths(document: Document) -> Iterator[float]:
-    """Widths of the doors as they are drawn, whatever else is wrong with the plan."""
+    """Widths of the doors as drawn, even if the plan has other faults."""
     for feature in document["features"]:
         if feature["properties"]["kind"] == "door":
             start, end = feature["geometry"]["coordinates"]

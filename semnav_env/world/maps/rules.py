@@ -31,7 +31,7 @@ LEAST_AREA = DRAWING_TOLERANCE**2
 
 
 class FloorPlanError(ValueError):
-    """A floor plan that cannot be used: one line that says where, what and what would be right."""
+    """A floor plan cannot be used; one line gives the place, the fault and a correct value."""
 
 
 def check_plan(plan: FloorPlan) -> None:

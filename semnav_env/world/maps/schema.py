@@ -42,7 +42,7 @@ def check_schema(document: Document, where: str) -> None:
 
 
 def _placed(document: Document, error: Any) -> str:
-    """What is wrong in a document, and where in it."""
+    """The errors of a document with their places."""
     path = list(error.absolute_path)
     feature = ""
     if path[:1] == ["features"] and len(path) > 1:

@@ -1,4 +1,4 @@
-"""Tells from the widths of its doors that a plan is drawn in another unit than metres."""
+"""Detects by the widths of doors that a plan is drawn in another unit than metres."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CERTAIN_WIDTH = 20.0
 
 
 def unit_fault(widths: Iterable[float]) -> str | None:
-    """What the doors of a plan say against its unit; None if they may be as wide as that.
+    """The fault of a plan whose doors are too wide for metres; None if the widths are plausible.
 
     Args:
         widths: of the doors, metres if the plan keeps to the rules.
@@ -36,6 +36,6 @@ def unit_fault(widths: Iterable[float]) -> str | None:
 
 
 def certain_unit_fault(widths: Iterable[float]) -> str | None:
-    """As `unit_fault`, where no building has doors so wide."""
+    """Like `unit_fault`, but only for widths that no building has."""
     known = [width for width in widths if math.isfinite(width)]
     return unit_fault(known) if known and median(known) >= CERTAIN_WIDTH else None

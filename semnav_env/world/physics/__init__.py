@@ -1,4 +1,4 @@
-"""The physical world: a robot that is driven through a floor plan and stopped by what is solid."""
+"""The physical world: a robot that drives through a floor plan and is stopped by solid things."""
 
 from semnav_env.world.physics.bodies import GRAVITY, GRIP
 from semnav_env.world.physics.contacts import Contacts

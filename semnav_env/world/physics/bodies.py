@@ -1,4 +1,4 @@
-"""What the physics is made of: walls, a robot's body and the joints that drive it."""
+"""The parts of the physics: walls, a robot's body and the joints that drive it."""
 
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from semnav_env.world.maps.placement import corners
 from semnav_features.frames import FloatArray, Pose, to_parent
 
 SLOP = 1e-3
-"""How deep shapes may overlap at rest, metres."""
+"""Largest overlap of shapes at rest, metres."""
 
 OVERLAP_LEFT = 0.7**60
 """Share of a deeper overlap that is left after a second: 0.7 of it after each substep."""
 
 GRIP = 0.7
-"""Friction between tyres or feet and the floor: bounds how hard a robot pushes."""
+"""Friction between tyres or feet and the floor; it bounds the force of a robot."""
 
 SCRAPE = 0.3
 """Friction between robots and walls."""
 
 GRAVITY = 9.81
-"""m/s^2."""
+"""Acceleration of gravity, m/s^2."""
 
 
 def solid_space(segments: FloatArray) -> pymunk.Space:
@@ -38,7 +38,7 @@ def solid_space(segments: FloatArray) -> pymunk.Space:
 
 
 def vacant_space(segments: FloatArray, last: pymunk.Space | None) -> pymunk.Space:
-    """A space in which nothing is but what is solid; as good as a new one, to the last bit.
+    """A space with only the solid segments; it behaves like a new one, to the last bit.
 
     Args:
         segments: as in `solid_space`.
@@ -75,7 +75,7 @@ def driving_joints(
 
 
 def joint_accelerations(robot: RobotSpec) -> tuple[float, float]:
-    """For which accelerations the joints have the force: m/s^2 and rad/s^2."""
+    """Largest accelerations for which the joints have the force, m/s^2 and rad/s^2."""
     force, torque = _grip(robot)
     return force / robot.mass, torque / _inertia(robot)
 

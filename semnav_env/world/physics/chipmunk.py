@@ -63,7 +63,7 @@ def run_substeps(record: np.ndarray) -> None:
 def run_substeps_by_pymunk(
     record: np.ndarray, space: pymunk.Space, control: pymunk.Body, body: pymunk.Body
 ) -> None:
-    """The same as `run_substeps`, for machines on which that cannot be called."""
+    """Like `run_substeps`, for machines on which compiled code cannot call Chipmunk."""
     if record["is_ahead"]:
         x, y, body.angle, *velocity, body.angular_velocity = record["motion"].item()
         body.position, body.velocity = (x, y), tuple(velocity)

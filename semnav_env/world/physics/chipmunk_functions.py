@@ -1,4 +1,4 @@
-"""Chipmunk's functions as compiled code calls them, without Python in between.
+"""Chipmunk's functions for compiled code, without Python in between.
 
 Pymunk calls Chipmunk through cffi, which knows the addresses of its functions. Their names are
 given to LLVM, so that compiled code finds them, also when it comes out of a cache.
@@ -20,7 +20,7 @@ NUMBER, ADDRESS, INDEX = types.float64, types.uint64, types.int32
 
 
 def address(pointer: Any) -> int:
-    """Of what a cffi pointer points to."""
+    """The address to which a cffi pointer points."""
     return int(ffi.cast("uintptr_t", pointer))
 
 

@@ -1,4 +1,4 @@
-"""What a robot touches while a period is driven, noted by callbacks of the physics."""
+"""The contacts of a robot during a control period, noted by callbacks of the physics."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _point = vector_at("cpArbiterGetPointB")
 
 @dataclass(frozen=True)
 class Contacts:
-    """What the robot touched during one step.
+    """The contacts of the robot during one step.
 
     Attributes:
         count: solid segments touched, summed over the substeps.
@@ -49,11 +49,11 @@ class Contacts:
 
 
 def note_contacts(space: pymunk.Space, record: np.ndarray, compiled: bool) -> None:
-    """Have a space write what the robot touches into its record, dtype `DRIVE`.
+    """Let a space write the contacts of the robot into its record, dtype `DRIVE`.
 
     Args:
-        space: with the robot's body.
-        record: must live as long as the space is stepped.
+        space: the space with the robot's body.
+        record: the record; it must live as long as the space is stepped.
         compiled: whether compiled code does it, for each pair of shapes in each substep; else
             Python, for machines on which compiled code cannot call Chipmunk.
     """
@@ -93,7 +93,7 @@ def _note(arbiter: int, space: int, record: Any) -> None:
 
 
 def _note_by_pymunk(arbiter: pymunk.Arbiter, space: pymunk.Space, record: np.ndarray) -> None:
-    """The same as `_note`, called by Pymunk."""
+    """The callback of Pymunk that calls `_note`."""
     r = record[0]
     r["touches"] += 1
     x, y = arbiter.total_impulse

@@ -95,7 +95,7 @@ def _take_contacts_into_robot_frame(r: Any) -> None:
 
 @kernel
 def lost_motion(record: np.ndarray) -> tuple[float, float, float]:
-    """What the drive demanded in this period and contacts kept the body from, footprint's centre.
+    """Motion of the footprint's centre that the drive demanded and contacts prevented.
 
     Metres forward, metres to the left, radians; zeros where the robot touches nothing.
     """

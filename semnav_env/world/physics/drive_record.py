@@ -17,7 +17,7 @@ TWIST = np.dtype([("forward", "f8"), ("left", "f8"), ("turn", "f8")])
 """A `Twist` in a record: m/s, m/s, rad/s; robot frame."""
 
 BODY_MOTION = np.dtype([(name, "f8") for name in ("x", "y", "angle", "vx", "vy", "turn")])
-"""Where a body is and how it moves: metres, radians, m/s, rad/s; world frame."""
+"""Pose and velocity of a body: metres, radians, m/s, rad/s; world frame."""
 
 BODY_VELOCITY = np.dtype([("vx", "f8"), ("vy", "f8"), ("turn", "f8")])
 """A velocity in the world frame: m/s, m/s, rad/s."""
@@ -93,7 +93,7 @@ Written in each control period:
 
 
 ROUNDING = 1e-6
-"""Added to how far a corner may come, metres."""
+"""Margin for rounding in the motion of a corner, metres."""
 
 SURE_SHARE = 0.999
 """Share of the joints' force up to which it suffices in spite of rounding."""
@@ -121,6 +121,6 @@ def radius(robot: RobotSpec) -> float:
 
 
 def longest_way(robot: RobotSpec, period: float) -> float:
-    """How far a corner of the footprint can come in a control period, metres."""
+    """Largest motion of a corner of the footprint in a control period, metres."""
     speed = math.hypot(robot.max_speed, robot.max_sideways_speed)
     return ROUNDING + period * (speed + robot.max_turn_rate * radius(robot))

@@ -1,10 +1,10 @@
-"""How a robot moves that can touch nothing: as its joints make it, without the physics engine.
+"""Moves a robot that can touch nothing, by its joints and without the physics engine.
 
-Chipmunk spends most of a substep on finding out that nothing is touched. Where no wall is near,
-one look at the walls of the cell in which the robot is says so for a whole control period. Then
-the joints bring about the demanded velocity within one substep, unless it asks for more than
-their force, and the robot moves as Chipmunk would have moved it, to the last bit. Chipmunk's body
-is told where the robot is when the physics is asked again.
+Chipmunk spends most of a substep on finding that nothing is touched. Where no wall is near, one
+check of the walls of the robot's cell decides this for a whole control period. Then the joints
+reach the demanded velocity within one substep, unless this needs more than their force, and the
+robot moves as Chipmunk would have moved it, to the last bit. Chipmunk's body is updated when
+Chipmunk is called again.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 
 Solids: TypeAlias = tuple[np.ndarray, NDArray[np.int64], FloatArray]
-"""What is solid near a place: `Culling` as (grid, starts, ends)."""
+"""The solid segments near each place: `Culling` as (grid, starts, ends)."""
 
 
 def culling_around(floor_plan: FloorPlan, robot: RobotSpec, period: float) -> Culling:
-    """For each place of a plan, what a robot there may touch within a control period."""
+    """For each place of a plan, the segments that a robot may touch within a control period."""
     reach = math.hypot(robot.length / 2, robot.width / 2)
     reach += math.sqrt(2.0) * longest_way(robot, period)
     return shared_culling(floor_plan, reach, glass=True)
@@ -64,7 +64,7 @@ def _joints_suffice(r: Any) -> bool:
 
 @kernel
 def _is_something_near(r: Any, solids: Solids) -> bool:
-    """Whether the footprint, grown by how far its corners may come, meets a solid segment.
+    """Whether the footprint, grown by the motion of its corners, meets a solid segment.
 
     The separating axes of a segment and a rectangle are those of the rectangle and the segment's
     normal. Segments are moved into the frame of the rectangle.
@@ -91,7 +91,7 @@ def _is_something_near(r: Any, solids: Solids) -> bool:
 
 @kernel
 def _way(r: Any) -> float:
-    """How far a corner may come in this control period, metres."""
+    """Largest motion of a corner in this control period, metres."""
     before = math.sqrt(r.motion.vx * r.motion.vx + r.motion.vy * r.motion.vy)
     demanded = math.sqrt(r.demand.vx * r.demand.vx + r.demand.vy * r.demand.vy)
     turn = max(abs(r.motion.turn), abs(r.demand.turn))

@@ -1,4 +1,4 @@
-"""People and leaves as bodies of the physics: solid, and moved by nothing but themselves."""
+"""People and leaves as bodies of the physics: solid, and never pushed."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ if TYPE_CHECKING:
 
 
 class Movers:
-    """Kinematic bodies that follow what `Moving` says.
+    """Kinematic bodies that follow the people and leaves of `Moving`.
 
     Args:
-        space: in which they are put.
-        moving: where they are.
-        seconds: between two of its steps.
+        space: the space in which they are put.
+        moving: the people and leaves.
+        seconds: time between two of its steps.
     """
 
     def __init__(self, space: pymunk.Space, moving: Moving, seconds: float) -> None:
@@ -43,7 +43,7 @@ class Movers:
             body.angular_velocity = (angle - body.angle) / seconds
 
     def arrive(self) -> None:
-        """Put every body where it is, without the rounding of many substeps, and at rest."""
+        """Put every body at its exact place, without the rounding of many substeps, and at rest."""
         for body, (x, y, _) in zip(self._people, self._moving.discs.tolist(), strict=True):
             body.position, body.velocity = (x, y), (0.0, 0.0)
         for body, angle in self._turning():
@@ -51,7 +51,7 @@ class Movers:
         self._angles = self._moving.doors.angles.copy()
 
     def _turning(self) -> Iterator[tuple[pymunk.Body, float]]:
-        """The leaves that are not where they were, and where they point now."""
+        """The leaves that have moved, and their directions now."""
         doors = self._moving.doors
         for i in np.flatnonzero(doors.angles != self._angles).tolist():
             yield self._leaves[i], doors.leaves[i].closed + float(doors.angles[i])

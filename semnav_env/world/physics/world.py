@@ -1,4 +1,4 @@
-"""A robot that is driven through a floor plan and stopped by what is solid."""
+"""A robot that drives through a floor plan and is stopped by solid things."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ from semnav_features.validation import finite_floats, shown
 if TYPE_CHECKING:
     from semnav_env.world.dynamics.moving import Moving
 
-FINE = 20
-"""Substeps where something else moves: a robot's corner then gets less than a centimetre into
-somebody before the contact is felt."""
+SUBSTEPS_AMONG_MOVERS = 20
+"""Number of substeps if something else moves: a robot's corner then overlaps a person by less than
+a centimetre before the contact acts."""
 
 LONGEST_JUMP = 0.25
-"""Longest way in a substep, share of the body's shorter side: a body that jumps on to the other
-side of a wall is not stopped by it."""
+"""Longest motion in a substep, as a share of the body's shorter side: a body that jumps to the
+other side of a wall is not stopped by it."""
 
 
 class World:
@@ -58,12 +58,12 @@ class World:
         robot: body and limits.
         control_hz: commands per second.
         substeps: of the physics for each command, at least; more where the robot is fast or the
-            rate low (`LONGEST_JUMP`), and `FINE` where something else moves.
-        dynamics: what else moves.
+            rate low (`LONGEST_JUMP`), and `SUBSTEPS_AMONG_MOVERS` where something else moves.
+        dynamics: people, doors and furniture that move.
 
     Attributes:
         moving: people and leaves; None where only the robot moves.
-        still: the floor plan without what can move.
+        still: the floor plan without moving things.
         record: the robot and its motion as compiled code takes them, dtype `DRIVE`; always the
             same array.
         solids: what a robot may touch, see `culling_around`.
@@ -87,7 +87,7 @@ class World:
         self.still = floor_plan if self.moving is None else self.moving.still
         period_way = math.hypot(robot.max_speed, robot.max_sideways_speed) * self._period
         least = math.ceil(period_way / (LONGEST_JUMP * min(robot.length, robot.width)))
-        substeps = max(substeps, least, 0 if self.moving is None else FINE)
+        substeps = max(substeps, least, 0 if self.moving is None else SUBSTEPS_AMONG_MOVERS)
         self.control_hz, self.substeps = control_hz, substeps
         self._at_rest()
         self._start: Pose | None = None
@@ -112,12 +112,12 @@ class World:
 
         Args:
             pose: of the robot.
-            rng: of what people and doors do; the same every time without it. Nothing is drawn
-                from it where only the robot moves.
+            rng: for people and doors; without it they do the same every time. Nothing is drawn from
+                it if only the robot moves.
 
         Raises:
             ValueError: the pose is not three finite numbers, lies outside the boundary, or the
-                footprint would touch something solid; or people find no room.
+                footprint would touch something solid; or there is no room for all people.
         """
         drawn = self.moving is not None and rng is not None
         self._begin(pose, int(rng.integers(2**62)) if drawn and rng is not None else 0)
@@ -146,7 +146,7 @@ class World:
         self.arrive()
 
     def demand(self, velocity: Twist) -> None:
-        """Say how the robot shall move in the next control period, and where everything else does.
+        """Set the velocity of the robot for the next control period, and move everything else.
 
         Args:
             velocity: forward (m/s), left (m/s) and turn (rad/s) as commanded, robot frame, of the
@@ -175,15 +175,15 @@ class World:
         return self.moving is not None or not self._compiled
 
     def note_command(self, velocity: Twist) -> None:
-        """Take in a command that is carried out without `demand`."""
+        """Note a command that is carried out without `demand`."""
         self._journal.extend(velocity)
 
     def note_commands(self, commands: FloatArray) -> None:
-        """Take in the commands that were carried out without `demand`, shape (k, 3), in order."""
+        """Note the commands that were carried out without `demand`, shape (k, 3), in order."""
         self._journal.extend(commands.ravel().tolist())
 
     def arrive(self) -> None:
-        """Put an end to a control period for everything that moves besides the robot."""
+        """End a control period for everything that moves besides the robot."""
         if self.moving is not None:
             self._movers.arrive()
             self.moving.note(self.pose, self.velocity)
@@ -200,7 +200,7 @@ class World:
 
     @property
     def contacts(self) -> Contacts:
-        """What the robot touched during the last step."""
+        """The contacts of the robot during the last step."""
         self._require_reset()
         return Contacts(int(self.record["touches"][0]), float(self.record["impulse"][0]))
 
@@ -212,7 +212,7 @@ class World:
 
     @property
     def touches(self) -> list[Contact]:
-        """Where the robot touched what cannot move during the last step, robot frame."""
+        """Contact points with things that cannot move during the last step, robot frame."""
         count = int(self.record["contact_count"][0])
         return [(x, y, inward) for x, y, inward in self._contacts[:count].tolist()]
 
@@ -222,11 +222,11 @@ class World:
         return NO_MOVING_THINGS if self.moving is None else self.moving.shapes
 
     def social(self) -> dict[str, Any]:
-        """How near people and robot came since the reset; empty where only the robot moves."""
+        """Gaps between people and robot since the reset; empty if only the robot moves."""
         return {} if self.moving is None else self.moving.record.outcome()
 
     def clearance(self) -> float:
-        """Distance between the footprint and what is solid and nearest, metres; 0 if they touch.
+        """Distance between the footprint and the nearest solid thing, metres; 0 if they touch.
 
         Infinite in a plan without segments. Takes some 50 us: for evaluation.
         """

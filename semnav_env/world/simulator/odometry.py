@@ -1,4 +1,4 @@
-"""Dead reckoning that drifts: what a robot believes of its motion from its own wheels or legs."""
+"""Dead reckoning that drifts: the motion of a robot measured by its own wheels or legs."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _TURN = 2.0 * math.pi
 
 @dataclass(frozen=True)
 class OdometrySettings:
-    """How odometry errs.
+    """Errors of odometry.
 
     A bias is a standard deviation, drawn from once an episode. The variance of a noise is
     proportional to the motion, so that it does not depend on how often odometry is read. The
@@ -93,14 +93,14 @@ ODOMETRY = np.dtype(
 class Odometry:
     """Integrates the robot's displacements with the errors of `settings`.
 
-    The noise of an update is a function of the episode's seed and the number of the update, so
-    a pickled copy goes on exactly as the original does.
+    The noise of an update is a function of the episode's seed and the number of the update, so a
+    pickled copy continues exactly like the original.
 
     Args:
-        settings: how it errs.
+        settings: errors of the odometry.
 
     Attributes:
-        record: what compiled code needs for it, dtype `ODOMETRY`; always the same array.
+        record: the data for compiled code, dtype `ODOMETRY`; always the same array.
     """
 
     def __init__(self, settings: OdometrySettings = OdometrySettings()) -> None:
@@ -112,7 +112,7 @@ class Odometry:
 
     @property
     def pose(self) -> Pose:
-        """Of the robot's centre in the odometry frame, whose origin is the start pose."""
+        """Pose of the robot's centre in the odom frame, whose origin is the start pose."""
         x, y, heading = self.record["pose"].item()
         return x, y, heading
 
@@ -127,7 +127,7 @@ class Odometry:
         record["pose"], record["before"], record["updates"] = (0.0, 0.0, 0.0), true_pose, 0
 
     def update(self, true_pose: Pose) -> Pose:
-        """Move on to where the robot truly is now, world frame; returns `pose`.
+        """Update with the true pose of the robot, world frame; returns `pose`.
 
         Raises:
             RuntimeError: before the first `reset`.

@@ -6,7 +6,7 @@ from semnav_env.world.simulator.odometry import EXACT, OdometrySettings
 from semnav_features.validation import by_name
 
 USUAL_ODOMETRY = OdometrySettings()
-"""Well calibrated odometry that slips nowhere; what the frozen episodes are measured with."""
+"""Well calibrated odometry without slip; the frozen episodes are evaluated with it."""
 
 WHEELCHAIR_ODOMETRY = OdometrySettings(
     distance_bias=0.02,
@@ -33,7 +33,7 @@ SPOT_ODOMETRY = OdometrySettings(
     veer_noise=0.015,
     slip=0.5,
 )
-"""Legs and an inertial sensor: turns are felt well, steps of a trot slip a little at random.
+"""Legs and an inertial sensor: turns are measured well, steps of a trot slip a little at random.
 
 Mes 2021 gives no number for SPOT's drift. These are an assumption of the size that legged odometry
 is usually said to have, some percent of the way. Measure your own robot before you trust them.

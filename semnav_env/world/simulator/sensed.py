@@ -1,4 +1,4 @@
-"""What crosses the seam from the simulator to the robot, and what the judge is told beside it."""
+"""The data from the simulator for the robot, and the true motion for the judge."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from semnav_features.frames import Contact, FloatArray, Pose, Twist
 
 
 class Motion(NamedTuple):
-    """The true motion of one control period; only the judge is told.
+    """The true motion of one control period, for the judge only.
 
     Attributes:
         pose: true pose of the robot's centre, world frame.
@@ -26,14 +26,14 @@ class Motion(NamedTuple):
 
 
 class Sensed(NamedTuple):
-    """What a robot senses in one control period.
+    """The sensor data of a robot in one control period.
 
     Attributes:
-        ranges: of the scan, metres, shape (beams,); written anew in the next period.
-        odometry: pose by dead reckoning, odometry frame: its origin is the start pose.
-        velocity: of the robot.
-        bumps: where the body touches what cannot move, robot frame.
-        motion: what truly happened; not for the robot.
+        ranges: ranges of the scan, metres, shape (beams,); overwritten in the next period.
+        odometry: pose by dead reckoning, odom frame: its origin is the start pose.
+        velocity: velocity of the robot by odometry.
+        bumps: contact points of the body with things that cannot move, robot frame.
+        motion: the true motion; not for the robot.
     """
 
     ranges: FloatArray

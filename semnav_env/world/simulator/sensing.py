@@ -55,7 +55,7 @@ NUMBERS = 10
 
 @structref.register
 class SimulatorArraysType(ArraysType):
-    """How compiled code sees `SimulatorArrays`."""
+    """The type of `SimulatorArrays` in compiled code."""
 
 
 class SimulatorArrays(structref.StructRefProxy):

@@ -39,7 +39,7 @@ class RobotSetup:
     Attributes:
         robot: the body.
         lidar: on the body's mount; its rate is the control rate.
-        odometry: how dead reckoning errs.
+        odometry: errors of dead reckoning.
         exact: whether the lidar has no error and odometry is the true pose, world frame.
     """
 
@@ -58,7 +58,7 @@ class RobotSetup:
 
     @property
     def info(self) -> dict[str, Any]:
-        """What `reset` says of body and lidar, for `info`: their fields by name."""
+        """Entries of `info` of `reset` about body and lidar: their fields by name."""
         return {"robot": vars(self.robot).copy(), "lidar": vars(self.lidar).copy()}
 
     def with_changes(
@@ -93,16 +93,16 @@ class Simulator:
     """A robot that senses while it is driven through a floor plan.
 
     Args:
-        floor_plan: where it drives.
-        setup: its body and its sensors.
-        dynamics: what else moves.
+        floor_plan: the floor plan.
+        setup: body and sensors of the robot.
+        dynamics: people, doors and furniture that move.
 
     Attributes:
         world: the physics.
         lidar: on its mount.
         odometry: dead reckoning.
         last_ranges: of the last scan, metres, shape (beams,); always the same array.
-        arrays: what the compiled `sense` reads and writes; made anew when it is copied.
+        arrays: the arrays of the compiled `sense`; they are made again for a copy.
     """
 
     def __init__(
@@ -151,7 +151,7 @@ class Simulator:
 
     @property
     def last(self) -> Sensed:
-        """What was sensed in the last control period."""
+        """The sensor data of the last control period."""
         return self._sensed(TOUCHED if self.world.in_contact else 0)
 
     @for_one_thread
@@ -181,13 +181,13 @@ class Simulator:
 
         Raises:
             ValueError: not three finite numbers.
-            RuntimeError: before the first `reset`, or while another thread is in one of both.
+            RuntimeError: before the first `reset`, or while another thread is in `reset` or `step`.
         """
         self.demand(twist)
         return self.sensed(sense(self.arrays))
 
     def see(self, rig: DepthRig) -> PointCloud:
-        """What depth cameras on the robot give where it is now; the same when asked again.
+        """The cloud of depth cameras at the robot's present pose; repeated calls give the same.
 
         Args:
             rig: the cameras.
@@ -199,11 +199,11 @@ class Simulator:
         return rig_hits(rig, raised, self.motion.pose, rng, self.world.moving_shapes).cloud
 
     def demand(self, twist: Twist) -> None:
-        """Say how the robot shall move in the next control period; raises what `step` does."""
+        """Set the velocity of the robot for the next control period; raises errors of `step`."""
         self.world.demand(twist)
 
     def sensed(self, events: int) -> Sensed:
-        """What was sensed, given the events that `sense` returned."""
+        """The sensor data, given the events that `sense` returned."""
         self.world.arrive()
         return self._sensed(events)
 

@@ -30,7 +30,7 @@ WINDOW = 100
 
 
 class EpisodeMeasures(RLlibCallback):
-    """Logs the measures of each episode where it ends."""
+    """Logs the measures of each episode at its end."""
 
     def on_episode_end(self, *, episode: Any, metrics_logger: Any, **_: Any) -> None:
         """Log an episode."""
@@ -46,11 +46,11 @@ class EpisodeMeasures(RLlibCallback):
 
 
 def build_algorithm(preset: Preset, seed: int, options: RayOptions) -> PPO:
-    """RLlib's PPO for a preset, as near to that of stable-baselines3 as can be; Ray must run.
+    """Build RLlib's PPO for a preset, as similar as possible to stable-baselines3; Ray must run.
 
-    RLlib cannot stop an update at `max_kl`. Its penalty on the divergence, which is meant for that,
-    is left out, and hidden layers begin orthogonal: with RLlib's ways, one training needed twice as
-    many decisions (docs/cluster.md).
+    RLlib cannot stop an update at `max_kl`. Its penalty on the divergence is not used, and hidden
+    layers start orthogonal: with the defaults of RLlib, one training needed twice as many decisions
+    (docs/cluster.md).
     """
     logging.getLogger("ray.rllib").setLevel(logging.ERROR)
     register_env(ENVIRONMENT, partial(_envs, preset, options.threads))

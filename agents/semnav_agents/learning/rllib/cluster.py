@@ -30,8 +30,8 @@ def connect(options: RayOptions) -> None:
     """Start Ray on this machine, or join the cluster at an address.
 
     Raises:
-        ValueError: not an address, or there are fewer cores than the runners reserve.
-        RuntimeError: Ray would have listened beyond this machine.
+        ValueError: the address is malformed, or there are fewer cores than the runners reserve.
+        RuntimeError: Ray would have accepted connections from other machines.
         ConnectionError: there is no cluster at the address.
     """
     _join(options.address)
@@ -71,7 +71,7 @@ def _join(address: str | None) -> None:
 
 
 def check_reachable(address: str) -> None:
-    """Refuse an address where nothing answers; Ray itself would wait for minutes.
+    """Refuse an address without a server; Ray itself would wait for minutes.
 
     Raises:
         ValueError: it is not HOST:PORT.

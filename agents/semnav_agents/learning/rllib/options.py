@@ -1,4 +1,4 @@
-"""How a training is spread over processes; needs no Ray."""
+"""Options for distributing a training over processes; this module needs no Ray."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from semnav_features.checked_fields import Bounds, Count, check_fields
 
 @dataclass(frozen=True)
 class RayOptions:
-    """Where and in how many processes robots are driven with `--engine ray`.
+    """Options of `--engine ray`: the cluster, and the processes that drive robots.
 
     Attributes:
         address: of a Ray cluster, as HOST:PORT or "auto"; without it, Ray starts on this machine

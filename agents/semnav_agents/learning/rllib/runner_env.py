@@ -22,9 +22,10 @@ Array = NDArray[Any]
 
 
 class RunnerVectorEnv(VectorWrapper):
-    """Compact observations of shape (n, COMPACT_SIZE), and infos of ended episodes alone.
+    """Vector environment with compact observations and with infos of ended episodes only.
 
-    RLlib keeps every info and sends it to the learner, so all that is not logged is left out.
+    Observations have shape (n, COMPACT_SIZE). RLlib keeps every info and sends it to the learner,
+    so infos that are not logged are left out.
 
     Args:
         envs: environments with `observation="all"` that reset in the step after an episode's end.
@@ -71,7 +72,7 @@ class RunnerVectorEnv(VectorWrapper):
         return seen, rewards, terminated, truncated, ended | masks
 
     def _compact(self, observations: dict[str, Array]) -> Array:
-        """Robots whose episode was over in the step before have begun a new one."""
+        """Compact observations; robots whose episode ended in the last step start a new episode."""
         self._observer.forget(self._over)
         return self._observer.observe(observations)
 

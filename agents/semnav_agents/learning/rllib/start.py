@@ -22,7 +22,7 @@ def start_training(
     """Start Ray or join a cluster, compile the kernels on each machine, and begin.
 
     Args:
-        preset: what to learn.
+        preset: the settings of the training.
         folder: for the agent and its curves.
         seed: of a new training.
         options: where and in how many processes robots are driven.
@@ -58,7 +58,7 @@ def start_training(
 
 
 def _saved(preset: Preset, folder: Path) -> tuple[Card[PolicySettings], Tensors]:
-    """What a folder holds of an earlier training on Ray."""
+    """The card and the tensors of an earlier training on Ray in a folder."""
     card = Card.read(folder, PolicySettings)
     if card.preset != preset.plain():
         raise ValueError(

@@ -43,7 +43,7 @@ class RayTrainer:
         folder: for the agent and, in `tensorboard`, the curves; made if it does not exist.
         seed: of weights, trials, noise and exploration.
         options: in how many processes robots are driven.
-        steps: number of decisions that were trained before; 0 starts anew.
+        steps: number of decisions that were trained before; 0 for a new training.
     """
 
     def __init__(
@@ -70,8 +70,8 @@ class RayTrainer:
     ) -> RayTrainer:
         """Continue a training.
 
-        Weights, the optimizer's state, the number of decisions and the seed are restored; episodes
-        that were under way and the random numbers are not.
+        Weights, the optimizer's state, the number of decisions and the seed are restored.
+        Unfinished episodes and the states of the random generators are not restored.
 
         Args:
             preset: what to learn.
@@ -95,7 +95,7 @@ class RayTrainer:
     """Whether a checkpoint can be made."""
 
     def prepare(self) -> Iterator[Preparation]:
-        """Nothing comes before the first rollout."""
+        """Do nothing: RLlib needs no preparation before the first rollout."""
         return iter(())
 
     def advance(self) -> TrainingReport:
@@ -131,7 +131,7 @@ class RayTrainer:
         return dict(state["learner"]["rl_module"][DEFAULT_MODULE_ID])
 
     def _moments(self) -> Moments:
-        """What Adam keeps."""
+        """The moments of Adam by parameter."""
         state = self.algorithm.learner_group.get_state(components="learner/optimizer")
         (adam,) = state["learner"]["optimizer"].values()
         moments: Moments = adam["state"]["state"]

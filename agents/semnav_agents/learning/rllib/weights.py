@@ -1,4 +1,4 @@
-"""What RLlib has learned, as named tensors, and the policy in it; needs no Ray."""
+"""The state of a training on RLlib as named tensors, and its policy; needs no Ray."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ STEPS_NAME, WEIGHT_PREFIX, ADAM_PREFIX = "steps", "weights.", "adam."
 
 
 def policy_from(weights: Weights, hidden: int) -> Policy:
-    """The part of RLlib's weights that gives the mean action.
+    """Select those of RLlib's weights that give the mean action.
 
     Args:
         weights: by RLlib's names, in which layers and their activations are counted together.
@@ -38,7 +38,7 @@ def policy_from(weights: Weights, hidden: int) -> Policy:
 
 
 def beginning(weights: Weights, log_std: float) -> Weights:
-    """Weights with which a training begins: actions about zero, with a given spread.
+    """Initial weights of a training: actions about zero, with a given spread.
 
     The last layer is a hundredth of RLlib's, as Andrychowicz et al. (2021) recommend.
 
@@ -79,7 +79,7 @@ class RLlibState(NamedTuple):
 
         Args:
             tensors: by name.
-            weights: of a fresh model: what shapes there must be.
+            weights: of a new model, for the expected shapes.
 
         Raises:
             ValueError: a tensor is missing, too many, of another shape or type, or not finite.

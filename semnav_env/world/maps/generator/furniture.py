@@ -1,4 +1,4 @@
-"""Desks, cabinets, tables and columns of a generated office, outside what must stay clear."""
+"""Desks, cabinets, tables and columns of a generated office, outside the areas that stay clear."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ from semnav_env.world.maps.generator.openings import CORNER_DISTANCE, Doorway, l
 from semnav_env.world.maps.generator.settings import OfficeSettings
 
 WALL_GAP = 3
-"""Gap between a wall and what stands along it, cm."""
+"""Gap between a wall and furniture along it, cm."""
 
 AISLE_WIDTH = 90
 """Gap between a table in the middle of a room and everything else, cm: a wheelchair passes."""
 
 FREE_CORRIDOR_WIDTH = 130
-"""Width of a corridor that stays free beside what stands in it, cm."""
+"""Free width of a corridor beside furniture in it, cm."""
 
 DOOR_DISTANCE = 110
-"""Least distance from a door to what stands in a corridor, cm."""
+"""Least distance from a door to furniture in a corridor, cm."""
 
 JUNCTION_DISTANCE = 130
-"""Least distance from a junction to what stands in a corridor, cm."""
+"""Least distance from a junction to furniture in a corridor, cm."""
 
 CABINET_SIZES = ((80, 180), (40, 50))
 """Least and largest side of a cabinet along the wall, and the same out from it, cm."""

@@ -20,7 +20,7 @@ MAX_ABSORBED_DEPTH = 220
 """Depth of the deepest strip behind a room that becomes part of it, cm."""
 
 LEAST_FRONT = 150
-"""Shortest border of a room on its corridor, cm: there must be place for a door."""
+"""Shortest border of a room on its corridor, cm: it must have space for a door."""
 
 LEAST_WIDTH = 180
 """Width of the narrowest room, cm."""
@@ -49,7 +49,7 @@ CAP_CHANCE = 0.6
 
 @dataclass(frozen=True)
 class OfficeWall:
-    """A stretch of wall between a room and what lies before it.
+    """A part of a wall between a room and the area before it.
 
     Attributes:
         along_x: whether it runs along x, else along y.

@@ -48,14 +48,14 @@ BIG_AREA = 26.0
 """Floor area above which a room is big, square metres."""
 
 NAMED_CHANCE = 0.35
-"""Probability that a room is called by what it is for and not by a number."""
+"""Probability that a room is named by its function and not by a number."""
 
 NUMBERED_STOREYS = 4
 """Number of storeys that room numbers come from: 101 to 4xx."""
 
 
 def name_rooms(rng: Generator, lots: Sequence[Lot]) -> tuple[str, ...]:
-    """A unique name for each lot: a number such as "2.07", or what the room is for.
+    """A unique name for each lot: a number such as "2.07", or the function of the room.
 
     The number counts the rooms along the corridors; areas without a front wall have no number.
     """

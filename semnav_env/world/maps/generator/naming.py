@@ -1,7 +1,7 @@
 """Names of generated offices: "office:medium:17" has seed 17 and distribution "medium".
 
-One word without blanks or slashes, so that it passes for a path nowhere and needs no quotes in a
-shell; it holds all that the plan is made from, so that a process needs nothing but the name.
+The name is one word without blanks or slashes, so that it is never taken for a path and needs no
+quotes in a shell. It determines the whole plan, so that a process needs only the name.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from semnav_env.world.maps.generator.distributions import NAMED_SETTINGS
 from semnav_env.world.maps.generator.settings import OfficeSettings
 
 CUSTOM_DISTRIBUTION = "custom"
-"""Name that stands for settings which are those of no fixed distribution."""
+"""Name for settings that do not belong to a fixed distribution."""
 
 MAX_SEED = 2**63 - 1
 """Largest seed."""
@@ -35,7 +35,7 @@ def generate_office(seed: int, settings: str | OfficeSettings = "medium") -> Flo
             one's own.
 
     Raises:
-        ValueError: no such distribution, a seed that is none, or settings that no office meets.
+        ValueError: no such distribution, an invalid seed, or settings that no office meets.
     """
     if isinstance(seed, bool) or not isinstance(seed, Integral) or not 0 <= seed <= MAX_SEED:
         raise ValueError(f"the seed is {seed!r}; give a whole number from 0 to {MAX_SEED}")

@@ -38,7 +38,7 @@ class OfficeSettings:
         furniture: chance of a piece in each place for one.
         glass: chance of a room to have a glass front.
         frameless: chance of a glass front to be one pane, in which a lidar sees neither the glass
-            nor where the door is; otherwise it is a row of windows.
+            nor the door; otherwise it is a row of windows.
     """
 
     rooms: Annotated[tuple[int, int], Bounds(2, 100)] = (16, 34)

@@ -21,7 +21,7 @@ from semnav_env.world.maps.generator.settings import OfficeSettings
 from semnav_features.frames import Point
 
 Line: TypeAlias = tuple[bool, int]
-"""Whether it runs along x, and its place across that, cm."""
+"""Whether a line runs along x, and its coordinate across that direction, cm."""
 
 FRONT_WALL_LENGTH = 30
 """Length of wall beside the open front of an area, and between glass and the next wall or door,
@@ -31,7 +31,8 @@ LEAST_PANE_WIDTH = 60
 """Width of the narrowest frameless pane, cm."""
 
 WINDOW_WIDTH = 45
-"""Width of a window in a framed glass front, cm: too narrow for a robot to take it for a way."""
+"""Width of a window in a framed glass front, cm: too narrow for a robot to take it for a
+passage."""
 
 PIER_WIDTH = 30
 """Least width of the wall between two windows, cm."""

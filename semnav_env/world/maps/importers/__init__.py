@@ -1,4 +1,4 @@
-"""Floor plans from other people's maps: occupancy maps, vector maps, buildings, drawings."""
+"""Floor plans from maps of other programs: occupancy maps, vector maps, buildings, drawings."""
 
 from semnav_env.world.maps.importers.building import load_building
 from semnav_env.world.maps.importers.drawing import Drawing

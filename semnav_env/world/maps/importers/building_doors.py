@@ -80,7 +80,8 @@ def without_leaves(plan: FloorPlan) -> FloorPlan:
 def moved_along(door: PlanDoor, before: FloorPlan, after: FloorPlan) -> PlanDoor:
     """A door moved along with the walls nearest to its jambs.
 
-    So a jamb on a wall stays on it, and one that somebody marked beside a wall stays beside it.
+    Therefore a jamb on a wall stays on it, and a jamb that was marked beside a wall stays beside
+    it.
 
     Args:
         door: among the walls as they were.

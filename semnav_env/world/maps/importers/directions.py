@@ -30,7 +30,7 @@ QUARTER_TURN = math.pi / 2
 
 
 def dominant_direction(rings: Sequence[FloatArray]) -> float:
-    """The direction of most walls, and of those square to them.
+    """The direction of most walls and of the walls at right angles to them.
 
     Every straight piece of the outlines votes for its direction modulo 90 degrees, with the square
     of its length: the mean of directions is best with the inverse of their variances as weights,

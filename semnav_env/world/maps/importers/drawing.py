@@ -24,7 +24,7 @@ from semnav_features.checked_fields import Bounds, check_fields
 from semnav_features.frames import FloatArray, Point
 
 CURVE_TOLERANCE = 0.01
-"""Largest distance of the lines that stand for a curve from the curve, metres."""
+"""Largest distance between a curve and the lines that replace it, metres."""
 
 MAX_DRAWING_EXTENT = 1000.0
 """Extent of a drawing beyond which its scale must be wrong, metres."""

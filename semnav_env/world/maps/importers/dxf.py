@@ -78,7 +78,7 @@ def _strokes(
 
 
 def _read(path: Path) -> tuple[Any, int]:
-    """The document, and how many errors in the file were mended."""
+    """The document, and the number of errors in the file that were repaired."""
     try:
         from ezdxf import recover
         from ezdxf.lldxf.const import DXFError

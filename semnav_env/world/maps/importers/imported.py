@@ -21,8 +21,8 @@ class ImportReport:
     Attributes:
         source: the files.
         kind: kind of map, in words.
-        taken: how many of each kind of thing are in the plan.
-        left_out: what was not taken, one line each with the reason.
+        taken: number of things of each kind in the plan.
+        left_out: parts that were not imported, one line each with the reason.
         notes: further remarks, one line each.
     """
 

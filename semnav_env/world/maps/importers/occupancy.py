@@ -71,7 +71,7 @@ class OccupancyMap:
 
     @cached_property
     def solid(self) -> NDArray[np.bool_]:
-        """Which pixels are occupied."""
+        """Mask of the occupied pixels."""
         return solid_pixels(self.grey, self.spec.occupied_thresh, self.spec.negate)
 
     @cached_property

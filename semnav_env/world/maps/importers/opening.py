@@ -35,13 +35,13 @@ IMPORTED_FORMATS = (
 KNOWN_SUFFIXES = frozenset(
     (".yaml", ".yml", ".dxf", ".svg", ".json", ".csv", ".txt", ".geojson", *IMAGE_SUFFIXES)
 )
-"""Suffixes of the files that the package itself reads; nobody else may register them."""
+"""Suffixes of the files that the package itself reads; they cannot be registered."""
 
 LARGE_EXTENT = 300.0
 """Extent of an imported plan beyond which its unit is doubted, metres: few buildings are longer."""
 
 Importer: TypeAlias = Callable[[Path], ImportedPlan]
-"""Reads a file into a floor plan and the report of what was understood."""
+"""Reads a file into a floor plan and a report of what was imported."""
 
 _registered: dict[str, Importer] = {}
 
@@ -80,7 +80,7 @@ def import_map(
         drawing: scale and layers of a drawing; of other coordinates only the scale is used.
 
     Returns:
-        The plan, and what was understood.
+        The plan, and a report of what was imported.
 
     Raises:
         FloorPlanError: names the file, what is wrong and what would be right.
@@ -99,7 +99,7 @@ def import_map(
 
 
 def _with_doubts(found: ImportedPlan, path: Path) -> ImportedPlan:
-    """The plan with a note where its size tells of another unit; refused where it is certain."""
+    """The plan, with a note if its size suggests another unit; refused if this is certain."""
     plan, report = found
     widths = [door.width for door in plan.doors]
     if fault := certain_unit_fault(widths):

@@ -27,7 +27,7 @@ IMAGE_FORMATS = ("PPM", "PNG", "BMP", "TIFF", "GIF")
 def read_grey(path: Path) -> FloatArray:
     """Brightness of every pixel, 0 black to 255 white, shape (rows, columns).
 
-    Colours are averaged, as ROS's map_server does; what is transparent counts as unknown grey.
+    Colours are averaged, as in ROS's map_server; transparent pixels count as unknown grey.
 
     Raises:
         FloorPlanError: no such file, no image, or too many pixels.
@@ -83,11 +83,11 @@ def _brightness(image: Image.Image) -> FloatArray:
 
 
 UNKNOWN_GREY = 205.0
-"""Brightness that map_saver writes where nothing is known."""
+"""Brightness that map_saver writes for unknown pixels."""
 
 
 def solid_pixels(grey: FloatArray, threshold: float, negate: bool) -> NDArray[np.bool_]:
-    """Which pixels are occupied: darker than the threshold, or lighter if `negate`.
+    """Mask of the occupied pixels: darker than the threshold, or lighter if `negate`.
 
     The occupancy is (255 - brightness) / 255, or brightness / 255 if `negate` (ROS map_server).
     """

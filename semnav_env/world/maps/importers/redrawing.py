@@ -99,7 +99,7 @@ def _rank(run: PixelRun) -> tuple[float, int, int]:
 
 
 def _moved(old: FloatArray, new: FloatArray, run: PixelRun) -> float:
-    """How far the vertices of a run lay from its line at most, and its ends from where they are."""
+    """Largest shift of the ends of a run, and of its vertices from the line of the run."""
     there = run.vertices(len(old))
     ends = np.stack((new[there[0], 1], new[there[-1], 0]))
     away = shapely.distance(shapely.points(old[there]), shapely.LineString(ends))

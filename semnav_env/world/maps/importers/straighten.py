@@ -40,8 +40,8 @@ def straighten(rings: Sequence[FloatArray], bound: float) -> Straightened:
     """The outlines with their runs along the building's two directions on exact lines.
 
     Every `PixelRun` of an outline is put on a line along one of the two directions
-    (`dominant_direction`); runs that continue each other, as beside a door, get the same line. All
-    else, oblique or round, stays as it is. No point moves by more than the bound, and a run stays
+    (`dominant_direction`); runs that continue each other, as beside a door, get the same line.
+    Oblique and round walls stay as they are. No point moves by more than the bound, and a run stays
     as it was if its line met another part of an outline, so that nothing opens or closes.
 
     Args:

@@ -27,7 +27,7 @@ from semnav_features.frames import FloatArray, Point
 from semnav_features.validation import clipped
 
 MAX_STEPS = 200
-"""Largest number of lines that stand for a piece of a curve."""
+"""Largest number of lines that replace a piece of a curve."""
 
 LABEL_ATTRIBUTE = "{http://www.inkscape.org/namespaces/inkscape}label"
 """Attribute in which Inkscape keeps the name of a layer."""

@@ -33,7 +33,8 @@ MAX_STYLE_SHEET = 10_000
 """Length of the longest style sheet, characters."""
 
 MAX_CLOSINGS = 100
-"""How often one subpath may be closed; each closing is looked up from the subpath's beginning."""
+"""Largest number of closings of one subpath; each closing is looked up from the subpath's
+beginning."""
 
 _OUTLINES = ("d", "points")
 _TRANSFORMS = ("transform", "gradientTransform", "patternTransform")
@@ -97,19 +98,19 @@ def _reference(element: Element) -> str:
 
 
 def _numbers(element: Element) -> float:
-    """How many numbers the outline of an element has, at least."""
+    """Least count of numbers in the outline of an element."""
     return float(sum(len(_NUMBER.findall(element.get(name, ""))) for name in _OUTLINES))
 
 
 def _arcs(element: Element) -> float:
-    """How many arcs an element is drawn with; a command may draw several, of five numbers each."""
+    """Number of arcs of an element; a command may draw several, of five numbers each."""
     commands = _ARC.findall(element.get("d", ""))
     drawn = sum(max(1, len(_NUMBER.findall(numbers)) // 5) for numbers in commands)
     return float(drawn + 4 * element.tag.endswith(_ROUND))
 
 
 def _faults(element: Element) -> Iterator[str]:
-    """What in an element takes too long to read."""
+    """The parts of an element that take too long to read."""
     if any(map(_LONG_NUMBER.search, element.attrib.values())):
         yield f"a number of {MAX_DIGITS} characters or more; save it with fewer decimals"
     if any(len(element.get(name, "")) > MAX_TRANSFORM for name in _TRANSFORMS):

@@ -28,11 +28,11 @@ class Tracing:
     """Options for tracing walls from pixels.
 
     Attributes:
-        mend: gaps of at most so many pixels in walls are closed; maps that a robot made have
+        mend: largest width of gaps in walls that are closed, pixels; maps that a robot made have
             perforated walls, which beams would pass.
         simplify: pixels by which an outline may be simplified, see `outlines`.
-        straighten: pixels by which what runs along the building's two directions may be moved
-            onto straight lines, see `straighten`; 0 leaves all as traced. With 0 here, in `mend`
+        straighten: pixels by which walls along the building's two directions may be moved onto
+            straight lines, see `straighten`; 0 leaves them as traced. With 0 here, in `mend`
             and in `simplify`, the walls are exactly the pixels' edges.
 
     Raises:
