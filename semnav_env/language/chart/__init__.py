@@ -1,0 +1,1 @@
+"""Reads a text with one chart: words, spans, constituents, clauses, edits, programs, ranks."""

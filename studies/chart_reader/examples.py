@@ -1,0 +1,60 @@
+"""Texts of authors with their candidates, and which of these are right."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from semnav_env.language.chart.ranker import features_of, text_features
+from semnav_env.language.chart.reader import candidates, chart_of
+from semnav_env.language.corpora import Sentence, load_sentences
+from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.corpora.meanings import meaning_of, normal
+
+
+@dataclass(frozen=True)
+class Example:
+    """A text with its candidates.
+
+    Attributes:
+        author: the stem of its file.
+        sentence: the text and its meanings.
+        features: of each candidate, and of "none of these" behind them.
+        forms: the normal form of each candidate; None for what no clause says.
+        right: whether each is right; "none of these" is if no other is.
+    """
+
+    author: str
+    sentence: Sentence
+    features: tuple[dict[str, float], ...]
+    forms: tuple[object, ...]
+    right: tuple[bool, ...]
+
+
+def examples_of(file: Path, language: str) -> list[Example]:
+    """The examples of an author's file; `language` is a code."""
+    sentences = load_sentences(file)
+    rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
+    return [example_of(each, language, rooms, file.stem) for each in sentences]
+
+
+def example_of(sentence: Sentence, language: str, rooms: tuple[str, ...], author: str) -> Example:
+    """A sentence with its candidates."""
+    chart = chart_of(sentence.text, language, rooms)
+    found = candidates(chart)
+    wanted = list(map(normal, sentence.meanings))
+    forms = [None if c.command is None else normal(meaning_of(c.command)) for c in found]
+    right = [form is not None and form in wanted for form in forms]
+    rows = [*features_of(found), text_features(chart, sentence.text)]
+    return Example(
+        author, sentence, tuple(rows), (*forms, None), (*right, not any(right))
+    )
+
+
+def all_examples(files: list[tuple[Path, str]]) -> Iterator[Example]:
+    """The examples of several files, on two processors."""
+    with ProcessPoolExecutor(2) as pool:
+        for found in pool.map(examples_of, *zip(*files, strict=True)):
+            yield from found

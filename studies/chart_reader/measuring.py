@@ -1,0 +1,50 @@
+"""Judges what the ranker makes of examples: done, asked, refused, misread."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from studies.chart_reader.examples import Example
+
+
+@dataclass(frozen=True)
+class Limits:
+    """When to act, and when to refuse.
+
+    Attributes:
+        act: the least probability of the best reading for acting.
+        refuse: the probability of "none of these" from which on a text is refused.
+        ask: the least probability of the best reading for a question.
+    """
+
+    act: float = 0.8
+    refuse: float = 0.5
+    ask: float = 0.15
+
+
+def outcome_of(example: Example, chances: np.ndarray, limits: Limits) -> str:
+    """What becomes of a text, in the words of `semnav evaluate language`."""
+    groups: dict[object, list[float]] = {}
+    for chance, form, right in zip(chances, example.forms, example.right, strict=True):
+        group = groups.setdefault(form, [0.0, float(right and form is not None)])
+        group[0] += float(chance)
+    none = groups.pop(None, [0.0, 0.0])[0]
+    ranked = sorted(groups.values(), key=lambda group: -group[0])
+    if not ranked or none > limits.refuse or ranked[0][0] < limits.ask:
+        return "refused"
+    if ranked[0][0] >= limits.act:
+        return "understood" if ranked[0][1] else "misread"
+    return "asked" if any(group[1] for group in ranked[:2]) else "asked wrongly"
+
+
+def counted(examples: Sequence[Example], chances: Sequence[np.ndarray], limits: Limits) -> dict[str, Counter[str]]:
+    """How many texts of each kind came to which outcome."""
+    found: dict[str, Counter[str]] = {}
+    for example, chance in zip(examples, chances, strict=True):
+        kind = example.sentence.kind
+        found.setdefault(kind, Counter())[outcome_of(example, chance, limits)] += 1
+    return found
