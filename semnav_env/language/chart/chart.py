@@ -9,8 +9,8 @@ nested: `slot = (...)`, or `slot.kind` if they have a kind.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Set
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -20,6 +20,8 @@ from semnav_env.language.chart.lexicon import table_rows
 
 MOST_COST = 8.0
 """The most that a constituent may cost."""
+
+NOTHING: frozenset[str] = frozenset()
 
 SKIPPED = {"HES": 0.0, "SOFT": 0.1, "FILL": 0.15}
 """Costs of words that may be left out within a constituent."""
@@ -42,9 +44,15 @@ class GrammarRow:
     slot: str
     cost: float
     given: Features
+    first: frozenset[str] = frozenset()
 
 
-Grammar = dict[str, list[GrammarRow]]
+@dataclass(frozen=True, eq=False)
+class Grammar:
+    """The rows of a grammar by their symbols, and the words' symbols with which each can begin."""
+
+    rows: dict[str, tuple[GrammarRow, ...]]
+    first: dict[str, frozenset[str]]
 
 
 @cache
@@ -58,7 +66,34 @@ def grammar_of(language: str) -> Grammar:
         found[symbol].append(
             GrammarRow(items, parts[1], float(parts[2] or 0), read_features(parts[3]))
         )
-    return dict(found)
+    first = _first_symbols(found)
+    rows = {
+        symbol: tuple(replace(row, first=_firsts(row, first)) for row in each)
+        for symbol, each in found.items()
+    }
+    return Grammar(rows, {symbol: frozenset(each) for symbol, each in first.items()})
+
+
+def _first_symbols(rows: dict[str, list[GrammarRow]]) -> dict[str, set[str]]:
+    """The symbols of words with which each symbol can begin."""
+    first: dict[str, set[str]] = {symbol: {symbol} for symbol in rows}
+    size = -1
+    while size != (size := sum(map(len, first.values()))):
+        for symbol, each in rows.items():
+            for row in each:
+                first[symbol] |= _firsts(row, first)
+    return first
+
+
+def _firsts(row: GrammarRow, first: Mapping[str, Set[str]]) -> frozenset[str]:
+    found: set[str] = set()
+    for item in row.items:
+        for symbol in item.symbols:
+            plain = symbol.lstrip("!")
+            found |= first.get(plain, {plain})
+        if not item.may_lack:
+            break
+    return frozenset(found)
 
 
 def _item(word: str) -> PatternItem:
@@ -84,6 +119,7 @@ class Chart:
             for stop, symbol, given, cost in row:
                 spans[symbol].append((stop, given, cost))
             self.at.append(dict(spans))
+        self._symbols = [frozenset(spans) for spans in self.at]
         self._skips = [
             [(stop, cost + SKIPPED[s]) for s in SKIPPED for stop, _, cost in spans.get(s, ())]
             for spans in self.at
@@ -103,7 +139,7 @@ class Chart:
             best: dict[tuple[int, Features], float] = {}
             for stop, _, cost in self.find(symbol[1:], start):
                 best[stop, ()] = min(cost, best.get((stop, ()), 99.0))
-        elif symbol in self._grammar:
+        elif symbol in self._grammar.rows:
             self._found[key] = ()  # no constituent begins with itself
             best = self._constituents(symbol, start)
             for stop, given, cost in self.at[start].get(symbol, ()):
@@ -116,7 +152,9 @@ class Chart:
 
     def _constituents(self, symbol: str, start: int) -> dict[tuple[int, Features], float]:
         best: dict[tuple[int, Features], float] = {}
-        for row in self._grammar[symbol]:
+        for row in self._grammar.rows[symbol]:
+            if row.first.isdisjoint(self._symbols[start]):
+                continue
             for (stop, parts), cost in self._match(row, 0, start, False).items():
                 if stop == start:
                     continue
@@ -154,8 +192,12 @@ class Chart:
         return best
 
     def _first(self, item: PatternItem, start: int) -> Iterator[tuple[int, Features, float]]:
+        if start >= len(self.at):
+            return
+        here, first = self._symbols[start], self._grammar.first
         for symbol in item.symbols:
-            yield from self.find(symbol, start)
+            if symbol in here or not here.isdisjoint(first.get(symbol.lstrip("!"), NOTHING | {symbol.lstrip("!")})):
+                yield from self.find(symbol, start)
 
 
 def _in_slot(parts: Features, slot: str) -> Features:

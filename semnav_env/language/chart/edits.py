@@ -87,6 +87,10 @@ def _correct(so_far: Edited, bag: Features) -> Iterator[Edited]:
 
 def _deny(so_far: Edited, bag: Features) -> Iterator[Edited]:
     yield _with(so_far, so_far.bags, 0.1, "denied")
+    noun = next((v for slot, v in bag if isinstance(v, tuple) and "." in slot), None)
+    if noun is not None:
+        passed = features({"V": "pass", f"obj.{dict(noun)['kind']}": noun})
+        yield _with(so_far, (*so_far.bags, passed), 1.0, "denied and passed")
 
 
 def _after_denial(so_far: Edited, denied: Features, bag: Features) -> Iterator[Edited]:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections import defaultdict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
 from semnav_env.language.chart.features import Features
 from semnav_env.language.chart.lexicon import table_rows
 
-LIGHT = frozenset(("str", "along", "here", "it", "part", "sameside", "again", "twice"))
+LIGHT = frozenset(("str", "along", "here", "it", "sameside", "twice"))
 """Slots that a frame leaves unread if it must, at a cost."""
 
 UNREAD_COST = 0.5
@@ -57,6 +57,7 @@ class Frame:
     steps: tuple[str, ...]
     cost: float
     name: str
+    parts: tuple[str, ...] = ()
 
 
 @cache
@@ -81,6 +82,20 @@ def _needed(text: str) -> NeededSlot:
 @lru_cache(maxsize=20_000)
 def fitting(bag: Features) -> tuple[tuple[float, Frame], ...]:
     """The frames that take all slots of a bag, with their costs, the cheapest first."""
+    found = list(_direct(bag))
+    for prefix in frames_by_verb()["+"]:
+        slot = prefix.needs[0].filled_by(bag)
+        rest = tuple(pair for pair in bag if pair[0] != slot)
+        if slot is not None and {name for name, _ in rest} - LIGHT - {"V"}:
+            for cost, frame in _direct(rest):
+                steps, name = prefix.steps + frame.steps, f"{prefix.name}+{frame.name}"
+                both = replace(frame, steps=steps, name=name, parts=(prefix.name, frame.name))
+                found.append((cost + prefix.cost, both))
+    return tuple(sorted(found, key=lambda pair: pair[0]))
+
+
+@lru_cache(maxsize=20_000)
+def _direct(bag: Features) -> tuple[tuple[float, Frame], ...]:
     slots = {slot for slot, _ in bag if slot != "V"}
     verb = dict(bag).get("V", "-")
     found = []
@@ -91,5 +106,5 @@ def fitting(bag: Features) -> tuple[tuple[float, Frame], ...]:
         rest = slots - set(filled)
         unread = rest - frame.may
         if unread <= LIGHT:
-            found.append((frame.cost + UNREAD_COST * len(unread - {"part"}), frame))
-    return tuple(sorted(found, key=lambda pair: pair[0]))
+            found.append((frame.cost + UNREAD_COST * len(unread), frame))
+    return tuple(found)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict
+from collections import Counter
 from collections.abc import Sequence
 from functools import lru_cache
 from typing import NamedTuple
@@ -11,11 +11,13 @@ from typing import NamedTuple
 from rapidfuzz.distance import OSA
 
 from semnav_env.language.chart.features import Features, features
-from semnav_env.language.chart.lexicon import Lexicon, Node, spelt_number, words_of
+from semnav_env.language.chart.lexicon import Lexicon, Node, lexicon_of, spelt_number, words_of
+from semnav_env.language.languages import languages
 from semnav_env.language.rooms import spoken_names
 
-SLIP, COMPOUND, JOINED = 1.2, 0.1, 0.0
-"""Costs of a corrected word, of a compound, and of a word that is written as two."""
+SLIP, COMPOUND, JOINED, BORROWED = 1.2, 0.1, 0.0, 0.5
+"""Costs of a corrected word, of a compound, of a word that is written as two, and of a word of
+another language."""
 
 MOST_SLIPS = 3.0
 """The most that the corrections of a phrase may cost."""
@@ -57,6 +59,8 @@ class Lattice:
             self._spans(at, lexicon.root)
             self._spans(at, self._names)
             self._digits(at)
+            if self.words[at].isalpha() and not self._knows(self.words[at]):
+                self._borrow(at)
         self._decimals()
         self._favour_names()
         self.edges = [
@@ -88,7 +92,7 @@ class Lattice:
                 found.append((at + 1, (name, end), COMPOUND))
             if len(word) > 3 and OSA.distance(word, name, score_cutoff=1 + (len(word) > 7)) <= 1 + (len(word) > 7):
                 found.append((at + 1, (name,), SLIP))
-        if not parts:
+        if not parts and not _is_of_other(word, lexicon):
             found += [(at + 1, (each,), SLIP) for each in lexicon.meant_by(word)]
         return found
 
@@ -134,6 +138,18 @@ class Lattice:
             self._in_set[name, at] = tuple(best.items())
         return self._in_set[name, at]
 
+    def _knows(self, word: str) -> bool:
+        return word in self._lexicon.known or word in self._name_words
+
+    def _borrow(self, at: int) -> None:
+        """The spans of an unknown word in another language."""
+        for code in languages():
+            if code != self._lexicon.language.code:
+                node = lexicon_of(code).root.words.get(self.words[at])
+                for (symbol, given), cost in (node.entries if node else {}).items():
+                    key = (at + 1, symbol, given)
+                    self._found[at][key] = min(cost + BORROWED, self._found[at].get(key, 99.0))
+
     def _digits(self, at: int) -> None:
         word, found = self.words[at], self._found[at]
         if re.fullmatch(r"\d+(?:[.,]\d+)?", word):
@@ -177,12 +193,24 @@ class Lattice:
                                 self._found[at][key] += 0.8
 
 
+def _is_of_other(word: str, lexicon: Lexicon) -> bool:
+    """Whether another language has a word."""
+    others = (code for code in languages() if code != lexicon.language.code)
+    return any(word in lexicon_of(code).known for code in others)
+
+
 @lru_cache(maxsize=64)
 def _names(rooms: tuple[str, ...], code: str) -> tuple[Node, frozenset[str]]:
     """The tree of the names of rooms, and their words."""
     root, own = Node(), set()
     spoken = spoken_names(rooms)
     prefix = {"en": ("room",), "de": ("raum", "zimmer")}[code]
+    ends = Counter(match[0] for name in spoken.values() if (match := re.search(r"\d+$", name)))
+    for said, name in spoken.items():
+        end = re.search(r"\d+$", said)
+        if end and end[0] != said and ends[end[0]] == 1:
+            given = features({"bare": 1, "kind": "room", "name": name})
+            root.add([end[0]], "ROOMNAME", given, 2.0)
     for said, name in _spelt(spoken, code):
         forms = {said, name.replace("_", " ")} | {f"{word} {said}" for word in prefix}
         for form in forms:

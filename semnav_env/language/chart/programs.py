@@ -18,9 +18,17 @@ from semnav_env.language.chart.templates import (
     reference_of,
     seconds_of,
 )
-from semnav_env.language.clauses import Clause, Follow, GoToDoor, IfThere
+from semnav_env.language.clauses import (
+    Approach,
+    Clause,
+    Follow,
+    GoToDoor,
+    GoToRoom,
+    IfThere,
+    Turn,
+)
 from semnav_env.language.command import MAX_CLAUSES
-from semnav_env.language.references import DoorReference, Place, PlaceReference, RoomReference
+from semnav_env.language.references import DoorReference, PlaceReference, RoomReference
 
 MOST_DRAFTS = 10
 """The most programs of one way to part a text that are followed."""
@@ -31,8 +39,8 @@ MOST_FRAMES = 4
 FRAME_RANGE = 2.5
 """A frame may cost so much more than the cheapest one."""
 
-END = PlaceReference(Place.END)
-FIRST = DoorReference()
+END: Features = (("kind", "place"), ("place", "end"))
+FIRST: Features = (("kind", "door"),)
 HALLWAY_ENDS = ("corner", "end", "t_junction")
 
 
@@ -42,7 +50,8 @@ class Draft(NamedTuple):
     Attributes:
         cost: of its frames.
         clauses: so far.
-        last: the door or room that was spoken of last, as a noun phrase.
+        last: the door, place or room that was spoken of last, as a noun phrase.
+        leads: whether the last clause leads to it.
         tags: of its frames.
         unsayable: whether some part of it is no clause.
     """
@@ -50,192 +59,263 @@ class Draft(NamedTuple):
     cost: float
     clauses: tuple[Clause, ...]
     last: Features
+    leads: bool
     tags: tuple[str, ...]
     unsayable: bool
+
+    def tagged(self, *tags: str, cost: float = 0.0, **changes: Any) -> Draft:
+        """The same with more tags, a higher cost and other changes."""
+        return self._replace(cost=self.cost + cost, tags=(*self.tags, *tags), **changes)
 
 
 def programs(way: Edited) -> list[Draft]:
     """The programs of bags, the cheapest first."""
-    drafts = [Draft(way.cost, (), (), way.tags, way.unsayable)]
+    drafts = [Draft(way.cost, (), (), False, way.tags, way.unsayable)]
     bags = list(way.bags)
     while bags:
         bag = bags.pop(0)
-        if isinstance(bag, str):
+        if bag == "else":
+            otherwise = _next_bag(bags)
+            grown = [each for d in drafts for each in _else_without_if(d, otherwise)]
+        elif isinstance(bag, str):
             continue
-        if condition := _condition(bag):
-            then = bags.pop(0) if bags and not isinstance(bags[0], str) else None
+        elif asked := _asked(bag):
+            then = _next_bag(bags)
             otherwise = None
             if bags[:1] == ["else"]:
                 bags.pop(0)
-                otherwise = bags.pop(0) if bags and not isinstance(bags[0], str) else None
-            grown = [
-                each for d in drafts for each in _conditional(d, *condition, then, otherwise)
-            ]
+                otherwise = _next_bag(bags)
+            grown = [each for d in drafts for each in _conditional(d, *asked, then, otherwise)]
         else:
             grown = [each for draft in drafts for each in _extended(draft, bag)]
         drafts = sorted(grown, key=lambda draft: draft.cost)[:MOST_DRAFTS]
     return [d for d in drafts if d.unsayable or 0 < len(d.clauses) <= MAX_CLAUSES]
 
 
-def _condition(bag: Features) -> tuple[str, Any] | None:
-    name = bag[0][0]
-    found = name.partition(".")[0] in ("cond", "nocond", "condit", "nocondit")
-    return (name.partition(".")[0], bag[0][1]) if found else None
-
-
-def _conditional(
-    draft: Draft, kind: str, noun: Any, then: Entry | None, otherwise: Entry | None
-) -> Iterator[Draft]:
-    """A condition with what depends on it."""
-    absent = kind.startswith("no")
-    said = noun if isinstance(noun, tuple) else draft.last
-    tags = (*draft.tags, f"if:{kind}", "if:else" if otherwise else "if:then")
-    cannot = draft._replace(unsayable=True, tags=(*tags, "if:unsayable"))
-    own = dict(said)
-    if not isinstance(then, tuple) or own.get("kind") not in ("door", "place"):
-        yield cannot
-        return
-    if kind == "nocondit" and own.get("ord", 1) != 1:
-        yield cannot
-        return
-    try:
-        before, what = placed(said, draft.last)
-        if before or isinstance(what, RoomReference):
-            raise CannotSay
-        head = IfThere(what, absent, otherwise is not None)
-    except (CannotSay, ValueError):
-        yield cannot
-        return
-    start = draft._replace(clauses=(), last=said)
-    for first in _extended(start, then):
-        seconds = _extended(start, otherwise) if isinstance(otherwise, tuple) else [None]
-        for second in seconds:
-            parts = first.clauses + (second.clauses if second else ())
-            cost = first.cost + (second.cost - draft.cost if second else 0.0)
-            single = len(first.clauses) == 1 and (not second or len(second.clauses) == 1)
-            if first.unsayable or (second and second.unsayable) or not single:
-                yield cannot._replace(cost=cost)
-            else:
-                more = first.tags[len(draft.tags) :] + (
-                    second.tags[len(draft.tags) :] if second else ()
-                )
-                clauses = (*draft.clauses, head, *parts)
-                if kind == "nocondit" and draft.clauses:
-                    clauses = _first_open(draft, first)
-                    if clauses is None:
-                        yield cannot._replace(cost=cost)
-                        continue
-                yield Draft(cost, clauses, first.last, (*tags, *more), draft.unsayable)
-
-
-def _first_open(draft: Draft, then: Draft) -> tuple[Clause, ...] | None:
-    """ "If it is closed, take the next": closed doors do not count, so it is the first open one."""
-    door, following = draft.clauses[-1], then.clauses[0]
-    if isinstance(door, GoToDoor) and isinstance(following, GoToDoor) and door.door.ordinal == 1:
-        if following.door.ordinal in (1, 2):
-            return draft.clauses
+def _next_bag(bags: list[Entry]) -> Features | None:
+    """Take the bag that comes next, if one does."""
+    if bags and not isinstance(bags[0], str) and not _asked(bags[0]):
+        return cast(Features, bags.pop(0))
     return None
 
 
-def _extended(draft: Draft, bag: Entry) -> Iterator[Draft]:
+def _asked(bag: Entry) -> tuple[str, Any] | None:
+    """The kind of a condition and what it is on; None if a bag is none."""
+    name = bag[0][0].partition(".")[0]
+    return (name, bag[0][1]) if name in ("cond", "nocond", "condit", "nocondit") else None
+
+
+# --- Conditions ---------------------------------------------------------------------------------
+
+
+def _conditional(
+    draft: Draft, kind: str, noun: Any, then: Features | None, otherwise: Features | None
+) -> Iterator[Draft]:
+    """A condition with what depends on it, which may stand before it."""
+    tags = (f"if:{kind}", "if:else" if otherwise else "if:then")
+    draft = draft.tagged(*tags)
+    said = noun if isinstance(noun, tuple) else draft.last
+    try:
+        base, what = _condition_on(draft, said)
+    except CannotSay:
+        yield draft.tagged("if:unsayable", unsayable=True)
+        return
+    absent = kind.startswith("no")
+    before = draft.clauses[-1] if draft.clauses else None
+    is_same = draft.leads and (kind.endswith("it") or said == draft.last)
+    if before is not None and (then is None or is_same):
+        start = draft._replace(clauses=draft.clauses[:-1])
+        other = then if then is not None else otherwise
+        for second in _extended(draft, other) if other else [None]:
+            if second is not None and len(second.clauses) != len(draft.clauses) + 1:
+                continue
+            last = second.clauses[-1:] if second is not None else ()
+            if then is not None and not absent:
+                continue
+            if absent and second is None:
+                continue
+            if absent and _is_next(before, last[0]):
+                clauses: tuple[Clause, ...] = draft.clauses
+            else:
+                head = IfThere(what, False, second is not None)
+                clauses = (*start.clauses, head, before, *last)
+            grown = second or draft
+            yield grown.tagged("if:behind", cost=0.2, clauses=clauses)
+    if then is None:
+        yield draft.tagged("if:unsayable", cost=0.5, unsayable=True)
+        return
+    start = Draft(draft.cost, (), said, False, draft.tags, draft.unsayable)
+    for first in _extended(start, then):
+        for second in _extended(first._replace(clauses=(), last=said, leads=False), otherwise) if otherwise else [None]:
+            whole = second or first
+            parts = (first.clauses, second.clauses if second else ())
+            if any(len(part) > 1 for part in parts) or not parts[0] or (second and not parts[1]):
+                yield whole.tagged("if:unsayable", unsayable=True)
+                continue
+            head = IfThere(what, absent, second is not None)
+            own = tuple(_at_the_door(each, said) for part in parts for each in part)
+            yield whole.tagged(clauses=(*base, head, *own), leads=False)
+
+
+def _condition_on(
+    draft: Draft, said: Features
+) -> tuple[tuple[Clause, ...], DoorReference | PlaceReference]:
+    """What leads to a condition, and what it asks for."""
+    if not said:
+        raise CannotSay
+    before, what = placed(said, draft)
+    base = (*draft.clauses, *before)
+    if isinstance(what, RoomReference):
+        lead = GoToRoom(what.name, Approach.TO)
+        last = base[-1] if base else None
+        same = isinstance(last, GoToRoom) and last.name == what.name
+        return (*(base[:-1] if same else base), lead), DoorReference()
+    return base, what
+
+
+def _at_the_door(clause: Clause, said: Features) -> Clause:
+    """A clause in front of a room on whose door a condition was."""
+    if isinstance(clause, GoToRoom) and dict(said).get("name") == clause.name:
+        return GoToDoor(DoorReference(), clause.approach)
+    return clause
+
+
+def _is_next(door: Clause, following: Clause) -> bool:
+    """ "If it is closed, take the next": closed doors do not count, so it is the first open one."""
+    both = isinstance(door, GoToDoor) and isinstance(following, GoToDoor)
+    return both and door.door.ordinal == 1 and following.door.ordinal in (1, 2)
+
+
+def _else_without_if(draft: Draft, otherwise: Features | None) -> Iterator[Draft]:
+    """ "Take the door on the left, and if there is none, turn around"."""
+    before = draft.clauses[-1] if draft.clauses else None
+    what = before.door if isinstance(before, GoToDoor) else getattr(before, "at", None)
+    if otherwise is None or not isinstance(what, DoorReference | PlaceReference):
+        yield draft.tagged("if:unsayable", unsayable=True)
+        return
+    for second in _extended(draft, otherwise):
+        if len(second.clauses) == len(draft.clauses) + 1:
+            clauses = (*draft.clauses[:-1], IfThere(what, False, True), before, second.clauses[-1])
+            yield second.tagged("if:else alone", clauses=cast(Any, clauses))
+
+
+# --- Frames -------------------------------------------------------------------------------------
+
+
+def _extended(draft: Draft, bag: Features) -> Iterator[Draft]:
     """A draft with one more bag."""
-    assert isinstance(bag, tuple)
     for cost, tags, variant in _variants(draft, bag):
         found = fitting(variant)
         for more, frame in found[:MOST_FRAMES]:
             if more <= found[0][0] + FRAME_RANGE:
-                grown = draft._replace(cost=draft.cost + cost + more, tags=(*draft.tags, *tags))
-                yield from _framed(grown, frame, variant)
+                yield from _framed(draft.tagged(*tags, cost=cost + more), frame, variant)
 
 
 def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, ...], Features]]:
     """A bag, and with what it leaves out taken from what was said before."""
     yield 0.0, (), bag
-    kind = dict(draft.last).get("kind")
+    last = dict(draft.last)
     for slot, value in bag:
-        if isinstance(value, tuple) and "ell" in dict(value) and kind in ("place", "turn"):
-            own = dict(value)
-            if own["kind"] != "door" and "place" in own:
-                continue
-            taken = {**own, "kind": "place", "place": dict(draft.last)["place"]}
-            taken.pop("side", None)
+        own = dict(value) if isinstance(value, tuple) else {}
+        rest = {name: each for name, each in bag if name != slot}
+        base = slot.partition(".")[0]
+        if "ell" in own and last.get("kind") in ("place", "turn") and "name" not in last:
+            taken = own | {"kind": last["kind"], "place": last["place"]}
             taken.pop("ell")
-            rest = {k: v for k, v in bag if k != slot}
-            if "side" in own:
-                rest.setdefault("side", own["side"])
-            rest[f"{slot.partition('.')[0]}.place"] = features(taken)
+            if last["kind"] == "turn":
+                taken.setdefault("side", last.get("side"))
+            elif "side" in own:
+                rest.setdefault("side", taken.pop("side"))
+            rest[f"{base}.{last['kind']}"] = features(taken)
             yield 0.2, ("ellipsis:place",), features(rest)
+        if own.get("kind") == "door" and "side" not in own and last.get("kind") == "door":
+            if last.get("side") in ("left", "right") and "side" not in dict(bag):
+                rest[slot] = features(own | {"side": last["side"]})
+                yield 0.6, ("ellipsis:side",), features(rest)
 
 
 def _framed(draft: Draft, frame: Frame, bag: Features) -> Iterator[Draft]:
     """A draft with the steps of a frame."""
     verb = dict(bag).get("V", "-")
-    tags = (*draft.tags, f"F:{frame.name}", f"FV:{verb}:{frame.name}")
-    times = 2 if "twice" in dict(bag) and frame.steps[0].startswith("turn") else 1
+    names = frame.parts or (frame.name,)
+    draft = draft.tagged(*(f"F:{name}" for name in names), f"FV:{verb}:{names[-1]}")
     if frame.steps == ("unsayable",):
-        yield draft._replace(unsayable=True, tags=tags)
+        yield draft._replace(unsayable=True)
         return
-    clauses, last = list(draft.clauses), draft.last
+    times = 2 if "twice" in dict(bag) and frame.steps[0].startswith("turn") else 1
+    done = draft
     try:
         for step in frame.steps * times:
-            before, clause, noun = _step(step, bag, last)
-            clauses += [*before, clause]
-            last = noun if noun else last
+            done = _with_step(done, step, bag, frame.steps[0] == "turn around")
     except CannotSay:
-        yield draft._replace(unsayable=True, tags=(*tags, "unsayable"))
+        yield draft.tagged("unsayable", unsayable=True)
         return
-    if "$last" in " ".join(frame.steps) and not draft.last:
-        tags = (*tags, "no last")
-    done = Draft(draft.cost, tuple(clauses), last, tags, draft.unsayable)
     yield done
     yield from _counted_on(draft, done)
+    yield from _named_twice(draft, done)
 
 
-def _step(step: str, bag: Features, last: Features) -> tuple[list[Clause], Clause, Features]:
-    """The clauses before a step, its clause, and the noun phrase that it speaks of."""
+def _with_step(draft: Draft, step: str, bag: Features, returning: bool) -> Draft:
+    """A draft with the clauses of a step.
+
+    Raises:
+        CannotSay: no clause says it.
+    """
     values: dict[str, Any] = {}
     before: list[Clause] = []
     noun: Features = ()
     for word in step.replace("(", " ").replace(")", " ").split():
         if word[0] != "$":
             continue
-        name, _, side_from = word[1:].partition("/")
-        name, _, feature = name.partition(".")
-        if name in ("end", "first", "last") and name not in dict(bag):
-            value = {"end": (("kind", "place"), ("place", "end")), "first": (("kind", "door"),)}.get(
-                name, last or (("kind", "door"),)
-            )
-        elif name == "end":
-            value = (("kind", "place"), ("place", "end"))
-        else:
-            value = next(v for slot, v in bag if slot.partition(".")[0] == name)
-        if not isinstance(value, tuple):
-            values[word] = value
-            continue
-        if feature:
-            if feature not in dict(value):
-                raise CannotSay
-            values[word] = dict(value)[feature]
-            continue
-        if side_from:
-            if "side" in dict(value):
-                raise CannotSay
-            value = features(dict(value) | {"side": dict(bag)["side"]})
-        if name == "dist":
-            values[word] = distance_of(value)
-        elif name == "angle":
-            values[word] = degrees_of(value)
-        elif name == "secs":
-            values[word] = seconds_of(value)
-        else:
-            more, values[word] = placed(value, last)
+        value = _value(word, draft, bag)
+        name = word[1:].partition("/")[0]
+        if name in MEASURES:
+            values[word] = MEASURES[name](value)
+        elif isinstance(value, tuple):
+            if returning and dict(value).get("ord") == -1:
+                value = features(dict(value) | {"ord": 1})  # "back to the last door"
+            more, values[word] = placed(value, draft)
             before += more
             noun = value
-    return before, clause_of(step, values), noun
+        else:
+            values[word] = value
+    if step.startswith("note "):
+        return draft._replace(last=noun, leads=False)
+    clause = clause_of(step, values)
+    clauses = draft.clauses
+    if "$last" in step:
+        if not draft.last:
+            draft = draft.tagged("no last")
+        elif draft.leads and clauses and isinstance(clauses[-1], GoToDoor | GoToRoom):
+            clauses = clauses[:-1]  # said again, and more exactly
+    return draft._replace(
+        clauses=(*clauses, *before, clause), last=noun or draft.last, leads=bool(noun)
+    )
+
+
+MEASURES = {"dist": distance_of, "angle": degrees_of, "secs": seconds_of}
+"""What makes a value of the slots that are no noun phrases."""
+
+
+def _value(word: str, draft: Draft, bag: Features) -> Any:
+    """What stands in a step: "$slot", "$slot.side" or "$slot/side"."""
+    name, _, with_side = word[1:].partition("/")
+    name, _, feature = name.partition(".")
+    constants = {"end": END, "first": FIRST, "last": draft.last or FIRST}
+    value = constants.get(name) or next(v for slot, v in bag if slot.partition(".")[0] == name)
+    if feature:
+        if feature not in dict(value):
+            raise CannotSay
+        return dict(value)[feature]
+    if with_side:
+        if "side" in dict(value):
+            raise CannotSay
+        return features(dict(value) | {"side": dict(bag)["side"]})
+    return value
 
 
 def placed(
-    noun: Features, last: Features
+    noun: Features, draft: Draft
 ) -> tuple[list[Clause], DoorReference | PlaceReference | RoomReference]:
     """The clauses that lead to where a noun phrase is counted from, and its reference there.
 
@@ -244,26 +324,26 @@ def placed(
     """
     own = dict(noun)
     before: list[Clause] = []
-    if {"came", "sameside", "backwards"} & own.keys():
+    if {"came", "sameside"} & own.keys():
         raise CannotSay
     for name, value in noun:
         relation = name.partition(".")[0]
         if relation == "after":
-            more, reference = placed(value, last)
+            more, reference = placed(value, draft)
             before += [*more, _past(reference)]
         elif relation == "afterit":
-            if not last:
+            if not draft.last:
                 raise CannotSay
-            before.append(_past(reference_of(last)))
+            before.append(_past(reference_of(draft.last)))
         elif relation == "opposite":
-            more, reference = placed(value, last)
+            more, reference = placed(value, draft)
             before += [*more, Follow(reference)]
             own["side"] = "opposite"
         elif relation == "before":
             if dict(value).get("place") not in HALLWAY_ENDS:
                 raise CannotSay
         elif relation == "near":
-            if dict(value).get("place") not in ("end",):
+            if dict(value).get("place") != "end":
                 raise CannotSay
             own["atend"] = 1
         elif relation == "fromend":
@@ -273,6 +353,8 @@ def placed(
             own["side"] = "ahead"
         elif own["side"] in ("left", "right"):
             own["ord"] = -1
+    if before and before[-1:] == list(draft.clauses[-1:]):
+        before.pop()  # "past the kitchen, then the door after it"
     return before, reference_of(features(own))
 
 
@@ -288,20 +370,31 @@ def _counted_on(before: Draft, done: Draft) -> Iterator[Draft]:
     if not before.clauses or len(done.clauses) != len(before.clauses) + 1:
         return
     passed, clause = before.clauses[-1], done.clauses[-1]
-    if not isinstance(passed, Follow) or passed.until is None:
+    first = passed.until if isinstance(passed, Follow) else getattr(passed, "at", None)
+    if not isinstance(first, DoorReference | PlaceReference) or isinstance(clause, IfThere):
         return
-    first = passed.until
     for name in ("door", "until", "at"):
         second = getattr(clause, name, None)
-        if type(second) is type(first) and isinstance(second, DoorReference | PlaceReference):
-            assert isinstance(first, DoorReference | PlaceReference)
-            same = (getattr(first, "side", None) in (getattr(second, "side", None), None)) and (
-                getattr(first, "place", None) == getattr(second, "place", None)
-            )
-            if same and 0 < first.ordinal < second.ordinal:
-                anew = replace(second, ordinal=second.ordinal - first.ordinal)
-                counted = replace(cast(Any, clause), **{name: anew})
-                tags = (*done.tags, "counted on")
-                yield done._replace(
-                    cost=done.cost + 0.3, clauses=(*done.clauses[:-1], counted), tags=tags
-                )
+        if not isinstance(second, type(first)) or not 0 < first.ordinal < second.ordinal:
+            continue
+        changes: dict[str, Any] = {"ordinal": second.ordinal - first.ordinal}
+        if isinstance(first, DoorReference):
+            if getattr(second, "side", None) not in (None, first.side):
+                continue
+            changes["side"] = first.side
+        elif first.place != getattr(second, "place", None):
+            continue
+        counted = replace(cast(Any, clause), **{name: replace(cast(Any, second), **changes)})
+        clauses = (*done.clauses[:-1], counted)
+        yield done.tagged("counted on", "counted on:turn" if isinstance(passed, Turn) else "counted on:way", cost=0.3, clauses=clauses)
+
+
+def _named_twice(before: Draft, done: Draft) -> Iterator[Draft]:
+    """Of a destination that is named twice ("the kitchen, that's the third door") only the door."""
+    if before.clauses and isinstance(before.clauses[-1], GoToRoom):
+        added = done.clauses[len(before.clauses) :]
+        if added and isinstance(added[-1], GoToDoor) and added[-1].approach is Approach.THROUGH:
+            kept = before.clauses[-1].approach
+            door = replace(added[-1], approach=kept)
+            clauses = (*before.clauses[:-1], *added[:-1], door)
+            yield done.tagged("named twice", cost=0.5, clauses=clauses)
