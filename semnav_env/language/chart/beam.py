@@ -165,6 +165,7 @@ class _Beam:
             return
         both = merged(bag, given)
         if both is not None:
+            both = _without_light(both)
             how = (f"join:{parted}", *slots) if bag else slots
             self._put(stop, cost + (JOIN[parted] if bag else 0.0), entries, both, "", Trace(trace, how))
 
@@ -224,6 +225,23 @@ class _Beam:
                 found[closed] = (cost + closing, Trace(trace, tags))
         ranked = sorted(found.items(), key=lambda pair: pair[1][0])
         return [Hypothesis(cost, entries, trace) for entries, (cost, trace) in ranked]
+
+
+STRAIGHT_MATTERS = frozenset(("at.place", "into.place", "uturn", "back"))
+"""Slots beside which "straight" says something."""
+
+
+def _without_light(bag: Features) -> Features:
+    """A bag without slots that say nothing beside its others."""
+    names = {name for name, _ in bag}
+    content = names - LIGHT - {"V"}
+    if content:
+        useless = {"here", "it", "along", "sameside"}
+        if not content & STRAIGHT_MATTERS:
+            useless.add("str")
+    else:
+        useless = {"along"} if "str" in names else set()
+    return tuple(pair for pair in bag if pair[0] not in useless) if useless & names else bag
 
 
 def _closed(

@@ -86,11 +86,14 @@ def _correct(so_far: Edited, bag: Features) -> Iterator[Edited]:
 
 
 def _deny(so_far: Edited, bag: Features) -> Iterator[Edited]:
-    yield _with(so_far, so_far.bags, 0.1, "denied")
     noun = next((v for slot, v in bag if isinstance(v, tuple) and "." in slot), None)
-    if noun is not None:
-        passed = features({"V": "pass", f"obj.{dict(noun)['kind']}": noun})
-        yield _with(so_far, (*so_far.bags, passed), 1.0, "denied and passed")
+    if noun is None:
+        yield _with(so_far, so_far.bags, 0.1, "denied")
+        return
+    topic: Features = ((f"topic.{dict(noun)['kind']}", noun),)
+    yield _with(so_far, (*so_far.bags, topic), 0.1, "denied")
+    passed = features({"V": "pass", f"obj.{dict(noun)['kind']}": noun})
+    yield _with(so_far, (*so_far.bags, passed), 1.0, "denied and passed")
 
 
 def _after_denial(so_far: Edited, denied: Features, bag: Features) -> Iterator[Edited]:
@@ -98,10 +101,13 @@ def _after_denial(so_far: Edited, denied: Features, bag: Features) -> Iterator[E
     changed = replaced(denied, bag)
     if changed is not None and "V" not in dict(bag):
         yield _with(so_far, (*so_far.bags, changed), 0.0, "instead of it")
-    if so_far.bags and not isinstance(so_far.bags[-1], str):
-        before = replaced(so_far.bags[-1], bag)
+    earlier = [index for index, each in enumerate(so_far.bags) if each[0][0][:5] != "topic"]
+    if earlier and not isinstance(so_far.bags[earlier[-1]], str):
+        index = earlier[-1]
+        before = replaced(so_far.bags[index], bag)
         if before is not None:
-            yield _with(so_far, (*so_far.bags[:-1], before), 0.6, "instead of that")
+            bags = (*so_far.bags[:index], before, *so_far.bags[index + 1 :])
+            yield _with(so_far, bags, 0.6, "instead of that")
     if fitting(bag):
         yield _with(so_far, (*so_far.bags, bag), 0.3, "anew")
 

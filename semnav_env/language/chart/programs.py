@@ -12,6 +12,7 @@ from semnav_env.language.chart.features import Features, features
 from semnav_env.language.chart.frames import Frame, fitting
 from semnav_env.language.chart.templates import (
     CannotSay,
+    NoClause,
     clause_of,
     degrees_of,
     distance_of,
@@ -89,7 +90,21 @@ def programs(way: Edited) -> list[Draft]:
         else:
             grown = [each for draft in drafts for each in _extended(draft, bag)]
         drafts = sorted(grown, key=lambda draft: draft.cost)[:MOST_DRAFTS]
+    once = [_without_repeats(each) for each in drafts]
+    drafts += [each for each in once if each is not None]
     return [d for d in drafts if d.unsayable or 0 < len(d.clauses) <= MAX_CLAUSES]
+
+
+def _without_repeats(draft: Draft) -> Draft | None:
+    """A draft in which nothing is said twice in a row; None if nothing is."""
+    kept = [
+        clause
+        for index, clause in enumerate(draft.clauses)
+        if index == 0 or clause != draft.clauses[index - 1] or isinstance(clause, Turn)
+    ]
+    if len(kept) == len(draft.clauses):
+        return None
+    return draft.tagged("repeated", cost=0.2, clauses=tuple(kept))
 
 
 def _next_bag(bags: list[Entry]) -> Features | None:
@@ -117,7 +132,7 @@ def _conditional(
     said = noun if isinstance(noun, tuple) else draft.last
     try:
         base, what = _condition_on(draft, said)
-    except CannotSay:
+    except NoClause:
         yield draft.tagged("if:unsayable", unsayable=True)
         return
     absent = kind.startswith("no")
@@ -137,6 +152,7 @@ def _conditional(
             if absent and _is_next(before, last[0]):
                 clauses: tuple[Clause, ...] = draft.clauses
             else:
+                last = tuple(_following(before, each) for each in last)
                 head = IfThere(what, False, second is not None)
                 clauses = (*start.clauses, head, before, *last)
             grown = second or draft
@@ -163,6 +179,9 @@ def _condition_on(
     """What leads to a condition, and what it asks for."""
     if not said:
         raise CannotSay
+    room = draft.clauses[-1] if draft.clauses else None
+    if said == FIRST and isinstance(room, GoToRoom):  # "to the kitchen, and if the door is closed"
+        said = features({"kind": "room", "name": room.name})
     before, what = placed(said, draft)
     base = (*draft.clauses, *before)
     if isinstance(what, RoomReference):
@@ -184,6 +203,15 @@ def _is_next(door: Clause, following: Clause) -> bool:
     """ "If it is closed, take the next": closed doors do not count, so it is the first open one."""
     both = isinstance(door, GoToDoor) and isinstance(following, GoToDoor)
     return both and door.door.ordinal == 1 and following.door.ordinal in (1, 2)
+
+
+def _following(door: Clause, clause: Clause) -> Clause:
+    """ "If the second is closed, take the next": the third."""
+    if isinstance(door, GoToDoor) and isinstance(clause, GoToDoor) and clause.door.ordinal == 1:
+        if door.door.ordinal > 1 and clause.door.side in (None, door.door.side):
+            following = DoorReference(door.door.ordinal + 1, door.door.side)
+            return replace(clause, door=following)
+    return clause
 
 
 def _else_without_if(draft: Draft, otherwise: Features | None) -> Iterator[Draft]:
@@ -214,6 +242,10 @@ def _extended(draft: Draft, bag: Features) -> Iterator[Draft]:
 def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, ...], Features]]:
     """A bag, and with what it leaves out taken from what was said before."""
     yield 0.0, (), bag
+    angle = dict(bag).get("angle")
+    if isinstance(angle, tuple) and dict(angle).get("n") == 180 and "side" not in dict(bag):
+        turned = {name: value for name, value in bag if name != "angle"}
+        yield -1.5, ("half turn",), features(turned | {"uturn": 1})
     last = dict(draft.last)
     for slot, value in bag:
         own = dict(value) if isinstance(value, tuple) else {}
@@ -239,7 +271,7 @@ def _framed(draft: Draft, frame: Frame, bag: Features) -> Iterator[Draft]:
     verb = dict(bag).get("V", "-")
     names = frame.parts or (frame.name,)
     draft = draft.tagged(*(f"F:{name}" for name in names), f"FV:{verb}:{names[-1]}")
-    if frame.steps == ("unsayable",):
+    if "unsayable" in frame.steps:
         yield draft._replace(unsayable=True)
         return
     times = 2 if "twice" in dict(bag) and frame.steps[0].startswith("turn") else 1
@@ -249,6 +281,8 @@ def _framed(draft: Draft, frame: Frame, bag: Features) -> Iterator[Draft]:
             done = _with_step(done, step, bag, frame.steps[0] == "turn around")
     except CannotSay:
         yield draft.tagged("unsayable", unsayable=True)
+        return
+    except NoClause:
         return
     yield done
     yield from _counted_on(draft, done)
@@ -305,11 +339,11 @@ def _value(word: str, draft: Draft, bag: Features) -> Any:
     value = constants.get(name) or next(v for slot, v in bag if slot.partition(".")[0] == name)
     if feature:
         if feature not in dict(value):
-            raise CannotSay
+            raise NoClause
         return dict(value)[feature]
     if with_side:
         if "side" in dict(value):
-            raise CannotSay
+            raise NoClause
         return features(dict(value) | {"side": dict(bag)["side"]})
     return value
 
@@ -333,7 +367,7 @@ def placed(
             before += [*more, _past(reference)]
         elif relation == "afterit":
             if not draft.last:
-                raise CannotSay
+                raise NoClause
             before.append(_past(reference_of(draft.last)))
         elif relation == "opposite":
             more, reference = placed(value, draft)
@@ -342,6 +376,7 @@ def placed(
         elif relation == "before":
             if dict(value).get("place") not in HALLWAY_ENDS:
                 raise CannotSay
+            own.setdefault("ord", -1)
         elif relation == "near":
             if dict(value).get("place") != "end":
                 raise CannotSay
@@ -362,7 +397,7 @@ def _past(reference: DoorReference | PlaceReference | RoomReference) -> Follow:
     try:
         return Follow(reference, past=True)
     except ValueError:
-        raise CannotSay from None
+        raise NoClause from None
 
 
 def _counted_on(before: Draft, done: Draft) -> Iterator[Draft]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from semnav_env.language.chart.beam import PROTECTED
 from semnav_env.language.chart.chart import Chart
+from semnav_env.language.chart.lattice import SLIP
 from semnav_env.language.chart.lexicon import TABLES
 from semnav_env.language.clauses import Clause, Follow, GoToDoor, GoToRoom, Turn
 
@@ -74,6 +75,8 @@ def text_features(chart: Chart, text: str) -> dict[str, float]:
     beyond = sum("BEYOND" in symbols and not symbols & PROTECTED for symbols in single)
     alone = sum(symbols == {"BEYOND"} or symbols == {"NAREA"} for symbols in single)
     unknown = sum(chart.lattice.unknown)
+    slips = sum(bool(row) and min(edge.cost for edge in row) >= SLIP for row in chart.lattice.edges)
+    values["none:slips"] = min(slips, 4.0)
     values |= {"none:beyond": min(beyond, 3.0), "none:beyond alone": min(alone, 3.0)}
     values |= {"none:any beyond": float(alone > 0), "none:any unknown": float(unknown > 0)}
     values |= {"none:unknown": min(unknown, 4.0), "none:words": min(len(words), 30) / 10.0}

@@ -28,8 +28,12 @@ OF_ROOMS = {"through": "room({})", "in": "room({})", "to": "to room({})"}
 """What the steps of doors are for a room."""
 
 
-class CannotSay(Exception):
-    """What is meant is no clause."""
+class NoClause(Exception):
+    """What a frame makes of its slots is no clause."""
+
+
+class CannotSay(NoClause):
+    """What is meant is clear, and no clause says it: a door beside a place, 30 centimetres."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +85,7 @@ def clause_of(step: str, values: dict[str, Any]) -> Clause:
     """The clause of a step, with references and numbers for what stands in it.
 
     Raises:
-        CannotSay: it is no clause.
+        NoClause: it is no clause.
     """
     template = template_of(step)
     given = {name: values[word] if word[0] == "$" else word for name, word in template.open.items()}
@@ -90,7 +94,7 @@ def clause_of(step: str, values: dict[str, Any]) -> Clause:
         return clause_of(OF_ROOMS[step.split()[0]].format("$room"), {"$room": room})
     if template.kind is GoToRoom:
         if room is None:
-            raise CannotSay
+            raise NoClause
         given = {"name": room.name}
     types = {name: options for form, options in open_fields(template.kind) for name, options in options.items()}
     for name, value in given.items():
@@ -99,9 +103,9 @@ def clause_of(step: str, values: dict[str, Any]) -> Clause:
     try:
         clause = template.kind(**template.fixed | given)
     except (ValueError, TypeError):
-        raise CannotSay from None
+        raise NoClause from None
     if not any(form.covers(clause) for form in forms_of(template.kind)):
-        raise CannotSay
+        raise NoClause
     return clause
 
 
