@@ -47,7 +47,7 @@ def example_of(sentence: Sentence, language: str, rooms: tuple[str, ...], author
     wanted = list(map(normal, sentence.meanings))
     forms = [None if c.command is None else normal(meaning_of(c.command)) for c in found]
     right = [form is not None and form in wanted for form in forms]
-    rows = [*features_of(found), text_features(chart, sentence.text)]
+    rows = [*features_of(found), text_features(chart, sentence.text, found)]
     return Example(
         author, sentence, tuple(rows), (*forms, None), (*right, not any(right))
     )

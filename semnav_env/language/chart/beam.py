@@ -34,6 +34,8 @@ MARKS = {
     "ANYCASE": ("any", 0.0),
     "OR": ("or", 0.1),
     "BEFORETHAT": ("before", 0.1),
+    "AFTERDO": ("before", 0.4),
+    "BEFOREDO": ("later", 0.4),
 }
 """Symbols that stand between bags, with their mark and cost."""
 

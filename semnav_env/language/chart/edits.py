@@ -18,12 +18,14 @@ class Edited(NamedTuple):
         bags: those that are left; a mark "else" or "any" may stand between them.
         tags: of the edits.
         unsayable: whether no command says it.
+        held: what comes behind the next bag.
     """
 
     cost: float
     bags: tuple[Entry, ...]
     tags: tuple[str, ...]
     unsayable: bool = False
+    held: Features = ()
 
 
 MOST_EDITED = 6
@@ -52,9 +54,11 @@ def edited(entries: tuple[Entry, ...]) -> list[Edited]:
             found = [each for e in found for each in _after_denial(e, denied or (), entry)]
         else:
             found = [each for e in found for each in edit(e, entry)]
+        if mark != "later":
+            found = [e._replace(bags=(*e.bags, e.held), held=()) if e.held else e for e in found]
         mark, denied = "", None
         found = sorted(found, key=lambda e: e.cost)[:MOST_EDITED]
-    return found
+    return [e._replace(bags=(*e.bags, e.held)) if e.held else e for e in found]
 
 
 def _add(so_far: Edited, bag: Features) -> Iterator[Edited]:
@@ -62,7 +66,9 @@ def _add(so_far: Edited, bag: Features) -> Iterator[Edited]:
 
 
 def _with(so_far: Edited, bags: tuple[Entry, ...], cost: float, tag: str) -> Edited:
-    return Edited(so_far.cost + cost, bags, (*so_far.tags, f"edit:{tag}"), so_far.unsayable)
+    return so_far._replace(
+        cost=so_far.cost + cost, bags=bags, tags=(*so_far.tags, f"edit:{tag}")
+    )
 
 
 def _correct(so_far: Edited, bag: Features) -> Iterator[Edited]:
@@ -116,6 +122,14 @@ def _before(so_far: Edited, bag: Features) -> Iterator[Edited]:
     yield _with(so_far, (*so_far.bags[:-1], bag, *so_far.bags[-1:]), 0.0, "before")
 
 
+def _later(so_far: Edited, bag: Features) -> Iterator[Edited]:
+    """ "Before you turn left, wait": at the beginning it waits for the bag behind it."""
+    if so_far.bags:
+        yield _with(so_far, (*so_far.bags, bag), 0.0, "later")
+    else:
+        yield _with(so_far, (), 0.0, "later first")._replace(held=bag)
+
+
 def _choice(so_far: Edited, bag: Features) -> Iterator[Edited]:
     yield _with(so_far, (*so_far.bags, bag), 0.0, "choice")._replace(unsayable=True)
     for each in _correct(so_far, bag):
@@ -128,6 +142,7 @@ EDITS: dict[str, Edit] = {
     "no": _correct,
     "denied": _add,
     "before": _before,
+    "later": _later,
     "or": _choice,
 }
 """What each mark does with the bag behind it."""

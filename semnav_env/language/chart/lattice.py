@@ -82,15 +82,19 @@ class Lattice:
                 found.append((at + size, meant, cost))
         if words[at + 1 : at + 2] == ["'s"]:
             found.append((at + 2, (word + "s",), JOINED))
-        if not word.isalpha() or word in lexicon.known or word in self._name_words:
+        if not word.isalpha() or word in self._name_words:
+            return found
+        for name in self._name_words:  # "Kuechentuer"
+            rest = word.removeprefix(name) if len(name) > 3 else word
+            ends = (end for end in (rest, rest[1:]) if rest != word and end in lexicon.nouns)
+            found += [(at + 1, (name, end), COMPOUND) for end in ends]
+        if word in lexicon.known:
             return found
         parts = lexicon.parts_of(word)
         found += [(at + 1, each, COMPOUND) for each in parts]
-        for name in self._name_words:  # "Kuechentuer", and the names' misspelt words
-            rest = word.removeprefix(name) if len(name) > 3 else word
-            if rest != word and (end := next((r for r in (rest, rest[1:]) if r in lexicon._nouns), "")):
-                found.append((at + 1, (name, end), COMPOUND))
-            if len(word) > 3 and OSA.distance(word, name, score_cutoff=1 + (len(word) > 7)) <= 1 + (len(word) > 7):
+        for name in self._name_words:
+            most = 1 + (len(word) > 7)
+            if len(word) > 3 and OSA.distance(word, name, score_cutoff=most) <= most:
                 found.append((at + 1, (name,), SLIP))
         if not parts and not _is_of_other(word, lexicon):
             found += [(at + 1, (each,), SLIP) for each in lexicon.meant_by(word)]

@@ -110,7 +110,7 @@ class Lexicon:
                 found += [(verb, first) for verb in verbs]
         for first in self._prefixes["compound"]:
             rest = word.removeprefix(first)
-            if rest != word and rest in self._nouns:
+            if rest != word and rest in self.nouns:
                 found.append((rest,))
         return tuple(found)
 
@@ -134,7 +134,7 @@ class Lexicon:
             for phrase in filter(None, table.get(name, "").split("|")):
                 self.add(phrase, symbol, read_features(given))
         self._verbs = {w for w, node in self.root.words.items() if _has(node, "V")}
-        self._nouns = {w for w, node in self.root.words.items() if _has(node, "N")}
+        self.nouns = {w for w, node in self.root.words.items() if _has(node, "N")}
 
     def _read_numbers(self) -> None:
         for n, row in enumerate(self.language.ordinals, 1):

@@ -251,6 +251,10 @@ def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, .
         own = dict(value) if isinstance(value, tuple) else {}
         rest = {name: each for name, each in bag if name != slot}
         base = slot.partition(".")[0]
+        if "sameside" in own and last.get("side"):
+            own.pop("sameside")
+            yield 0.0, ("same side",), features(rest | {slot: features(own | {"side": last["side"]})})
+            continue
         if "ell" in own and last.get("kind") in ("place", "turn") and "name" not in last:
             taken = own | {"kind": last["kind"], "place": last["place"]}
             taken.pop("ell")
@@ -263,7 +267,7 @@ def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, .
         if own.get("kind") == "door" and "side" not in own and last.get("kind") == "door":
             if last.get("side") in ("left", "right") and "side" not in dict(bag):
                 rest[slot] = features(own | {"side": last["side"]})
-                yield 0.6, ("ellipsis:side",), features(rest)
+                yield (0.1 if "ell" in own else 0.6), ("ellipsis:side",), features(rest)
 
 
 def _framed(draft: Draft, frame: Frame, bag: Features) -> Iterator[Draft]:
@@ -285,8 +289,17 @@ def _framed(draft: Draft, frame: Frame, bag: Features) -> Iterator[Draft]:
     except NoClause:
         return
     yield done
+    if frame.steps[0] == "turn around" and len(frame.steps) > 1:
+        yield from _turned_already(draft, done)
     yield from _counted_on(draft, done)
     yield from _named_twice(draft, done)
+
+
+def _turned_already(before: Draft, done: Draft) -> Iterator[Draft]:
+    """ "Turn around and go back to the corner": there is one turn."""
+    at = len(before.clauses)
+    if at and before.clauses[-1] == done.clauses[at]:
+        yield done.tagged("turned already", clauses=(*before.clauses, *done.clauses[at + 1 :]))
 
 
 def _with_step(draft: Draft, step: str, bag: Features, returning: bool) -> Draft:
@@ -323,8 +336,18 @@ def _with_step(draft: Draft, step: str, bag: Features, returning: bool) -> Draft
         elif draft.leads and clauses and isinstance(clauses[-1], GoToDoor | GoToRoom):
             clauses = clauses[:-1]  # said again, and more exactly
     return draft._replace(
-        clauses=(*clauses, *before, clause), last=noun or draft.last, leads=bool(noun)
+        clauses=(*clauses, *before, clause),
+        last=_seen_from_there(noun) if noun else draft.last,
+        leads=bool(noun),
     )
+
+
+RELATIONS = frozenset(("after", "afterit", "before", "near", "opposite", "atend", "fromend"))
+
+
+def _seen_from_there(noun: Features) -> Features:
+    """A noun phrase without what led to it."""
+    return tuple(pair for pair in noun if pair[0].partition(".")[0] not in RELATIONS)
 
 
 MEASURES = {"dist": distance_of, "angle": degrees_of, "secs": seconds_of}

@@ -64,9 +64,12 @@ def _kind(clause: Clause) -> str:
     return name
 
 
-def text_features(chart: Chart, text: str) -> dict[str, float]:
+def text_features(chart: Chart, text: str, found: Sequence[Candidate]) -> dict[str, float]:
     """The features of "none of these": what of a text speaks against its being a command."""
-    values = {"none": 1.0}
+    costs = [each.cost for each in found if each.command is not None]
+    best = min(costs, default=MOST_COST)
+    values = {"none": 1.0, "none:no candidate": float(not costs), "none:cost": min(best, MOST_COST)}
+    values |= {f"none:cost over {limit}": float(best > limit) for limit in (0.6, 1.2, 2.0, 3.0, 5.0)}
     words = chart.lattice.words
     single = [
         {symbol for symbol, row in spans.items() if any(stop == at + 1 and c <= 0.2 for stop, _, c in row)}

@@ -10,7 +10,7 @@ from typing import Any
 
 from semnav_env.language.chart.features import Features
 from semnav_env.language.clauses import CLAUSE_KINDS, Clause, GoToDoor, GoToRoom, SearchHouse
-from semnav_env.language.declarations import forms_of, open_fields
+from semnav_env.language.declarations import Multiples, forms_of, open_fields
 from semnav_env.language.references import (
     Distance,
     DoorReference,
@@ -96,10 +96,8 @@ def clause_of(step: str, values: dict[str, Any]) -> Clause:
         if room is None:
             raise NoClause
         given = {"name": room.name}
-    types = {name: options for form, options in open_fields(template.kind) for name, options in options.items()}
     for name, value in given.items():
-        if type(value) is str:
-            given[name] = next((o for o in types[name] if isinstance(o, Enum) and o.value == value), value)
+        given[name] = _fitting(value, _options(template.kind, name))
     try:
         clause = template.kind(**template.fixed | given)
     except (ValueError, TypeError):
@@ -107,6 +105,29 @@ def clause_of(step: str, values: dict[str, Any]) -> Clause:
     if not any(form.covers(clause) for form in forms_of(template.kind)):
         raise NoClause
     return clause
+
+
+@cache
+def _options(kind: type[Clause], name: str) -> tuple[Any, ...]:
+    """What a field may be in any form of its clause."""
+    each = (options.get(name, ()) for _, options in open_fields(kind))
+    return tuple(dict.fromkeys(option for options in each for option in options))
+
+
+def _fitting(value: Any, options: tuple[Any, ...]) -> Any:
+    """A value as a field may have it.
+
+    Raises:
+        NoClause: it may not.
+    """
+    for option in options:
+        if isinstance(option, Enum) and option.value == value:
+            return option
+        if isinstance(option, type) and type(value) is option:
+            return value
+        if isinstance(option, Multiples) and type(value) is int:
+            return value
+    raise NoClause
 
 
 def reference_of(noun: Features) -> DoorReference | PlaceReference | RoomReference:
