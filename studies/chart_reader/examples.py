@@ -7,8 +7,8 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from semnav_env.language.chart.ranker import features_of, text_features
-from semnav_env.language.chart.reader import candidates, chart_of
+from studies.chart_reader.ranker import features_of, text_features
+from studies.chart_reader.reader import candidates, chart_of
 from semnav_env.language.corpora import Sentence, load_sentences
 from semnav_env.language.corpora.measure import rooms_in
 from semnav_env.language.corpora.meanings import meaning_of, normal

@@ -11,6 +11,13 @@ import numpy as np
 from studies.chart_reader.examples import Example
 
 
+OUTCOMES = ("understood", "asked", "asked wrongly", "refused", "misread")
+"""What may become of a feasible text."""
+
+MOST_MISREAD, MOST_TAKEN = 0.01, 0.02
+"""Share of the feasible texts that may be misread, and of the infeasible ones that may be taken."""
+
+
 @dataclass(frozen=True)
 class Limits:
     """When to act, and when to refuse.
@@ -22,7 +29,7 @@ class Limits:
     """
 
     act: float = 0.8
-    refuse: float = 0.5
+    refuse: float = 0.35
     ask: float = 0.15
 
 
@@ -48,3 +55,16 @@ def counted(examples: Sequence[Example], chances: Sequence[np.ndarray], limits: 
         kind = example.sentence.kind
         found.setdefault(kind, Counter())[outcome_of(example, chance, limits)] += 1
     return found
+
+
+def chosen_limits(examples: Sequence[Example], chances: Sequence[np.ndarray]) -> Limits:
+    """The limits with the most texts done rightly among those that misread few enough."""
+    best = (-1, Limits(act=1.0))
+    for act in np.arange(0.5, 1.0, 0.01):
+        limits = Limits(act=round(float(act), 2))
+        counts = counted(examples, chances, limits)
+        feasible, infeasible = counts["feasible"], counts["infeasible"]
+        few = feasible["misread"] <= MOST_MISREAD * feasible.total()
+        if few and infeasible["misread"] <= MOST_TAKEN * infeasible.total():
+            best = max(best, (feasible["understood"], limits), key=lambda each: each[0])
+    return best[1]

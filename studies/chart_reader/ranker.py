@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from semnav_env.language.chart.beam import PROTECTED
-from semnav_env.language.chart.chart import Chart
-from semnav_env.language.chart.lattice import SLIP
-from semnav_env.language.chart.lexicon import TABLES
+from studies.chart_reader.beam import PROTECTED
+from studies.chart_reader.chart import Chart
+from studies.chart_reader.lattice import SLIP
+from studies.chart_reader.lexicon import TABLES
 from semnav_env.language.clauses import Clause, Follow, GoToDoor, GoToRoom, Turn
 
 if TYPE_CHECKING:
-    from semnav_env.language.chart.reader import Candidate
+    from studies.chart_reader.reader import Candidate
 
 MOST_COST = 12.0
 """Larger costs count as this one."""

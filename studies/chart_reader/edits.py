@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
-from semnav_env.language.chart.beam import Entry
-from semnav_env.language.chart.features import Features, features
-from semnav_env.language.chart.frames import fitting
+from studies.chart_reader.beam import Entry
+from studies.chart_reader.features import Features, features
+from studies.chart_reader.frames import fitting
 
 
 class Edited(NamedTuple):
@@ -92,6 +92,10 @@ def _correct(so_far: Edited, bag: Features) -> Iterator[Edited]:
 
 
 def _deny(so_far: Edited, bag: Features) -> Iterator[Edited]:
+    if so_far.bags and not isinstance(so_far.bags[-1], str):
+        denied, before = so_far.bags[-1], so_far._replace(bags=so_far.bags[:-1])
+        for each in _after_denial(before, denied, bag):
+            yield each._replace(cost=each.cost + 0.5, tags=(*each.tags, "edit:denied before"))
     noun = next((v for slot, v in bag if isinstance(v, tuple) and "." in slot), None)
     if noun is None:
         yield _with(so_far, so_far.bags, 0.1, "denied")

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
-from semnav_env.language.chart.features import Features, merged, read_features
-from semnav_env.language.chart.lattice import Lattice
-from semnav_env.language.chart.lexicon import table_rows
+from studies.chart_reader.features import Features, merged, read_features
+from studies.chart_reader.lattice import Lattice
+from studies.chart_reader.lexicon import table_rows
 
 MOST_COST = 8.0
 """The most that a constituent may cost."""

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple, cast
 
-from semnav_env.language.chart.beam import Entry
-from semnav_env.language.chart.edits import Edited
-from semnav_env.language.chart.features import Features, features
-from semnav_env.language.chart.frames import Frame, fitting
-from semnav_env.language.chart.templates import (
+from studies.chart_reader.beam import Entry
+from studies.chart_reader.edits import Edited
+from studies.chart_reader.features import Features, features
+from studies.chart_reader.frames import Frame, fitting
+from studies.chart_reader.templates import (
     CannotSay,
     NoClause,
     clause_of,
@@ -154,7 +154,8 @@ def _conditional(
             else:
                 last = tuple(_following(before, each) for each in last)
                 head = IfThere(what, False, second is not None)
-                clauses = (*start.clauses, head, before, *last)
+                lead = base[len(start.clauses) :] if isinstance(before, GoToRoom) else ()
+                clauses = (*start.clauses, *lead, head, _at_the_door(before, said), *last)
             grown = second or draft
             yield grown.tagged("if:behind", cost=0.2, clauses=clauses)
     if then is None:
@@ -241,7 +242,7 @@ def _extended(draft: Draft, bag: Features) -> Iterator[Draft]:
 
 def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, ...], Features]]:
     """A bag, and with what it leaves out taken from what was said before."""
-    yield 0.0, (), bag
+    yield (0.3 if _may_share_side(draft, bag) else 0.0), (), bag
     angle = dict(bag).get("angle")
     if isinstance(angle, tuple) and dict(angle).get("n") == 180 and "side" not in dict(bag):
         turned = {name: value for name, value in bag if name != "angle"}
@@ -267,7 +268,15 @@ def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, .
         if own.get("kind") == "door" and "side" not in own and last.get("kind") == "door":
             if last.get("side") in ("left", "right") and "side" not in dict(bag):
                 rest[slot] = features(own | {"side": last["side"]})
-                yield (0.1 if "ell" in own else 0.6), ("ellipsis:side",), features(rest)
+                yield (0.0 if "ell" in own else 0.6), ("ellipsis:side",), features(rest)
+
+
+def _may_share_side(draft: Draft, bag: Features) -> bool:
+    """Whether "the second" may be on the side of the door that was spoken of last."""
+    if dict(draft.last).get("side") not in ("left", "right") or "side" in dict(bag):
+        return False
+    nouns = [dict(value) for _, value in bag if isinstance(value, tuple)]
+    return any("ell" in own and "side" not in own for own in nouns)
 
 
 def _framed(draft: Draft, frame: Frame, bag: Features) -> Iterator[Draft]:
@@ -329,9 +338,13 @@ def _with_step(draft: Draft, step: str, bag: Features, returning: bool) -> Draft
     if step.startswith("note "):
         return draft._replace(last=noun, leads=False)
     clause = clause_of(step, values)
+    if isinstance(clause, Follow) and getattr(clause.until, "side", None) in BEHIND:
+        raise NoClause
     clauses = draft.clauses
     if "$last" in step:
         if not draft.last:
+            if step.startswith("hallway"):
+                raise NoClause
             draft = draft.tagged("no last")
         elif draft.leads and clauses and isinstance(clauses[-1], GoToDoor | GoToRoom):
             clauses = clauses[:-1]  # said again, and more exactly
@@ -341,6 +354,9 @@ def _with_step(draft: Draft, step: str, bag: Features, returning: bool) -> Draft
         leads=bool(noun),
     )
 
+
+BEHIND = ("behind", "opposite")
+"""Sides of doors to which nobody follows a hallway."""
 
 RELATIONS = frozenset(("after", "afterit", "before", "near", "opposite", "atend", "fromend"))
 
@@ -406,7 +422,7 @@ def placed(
             own["atend"] = 1
         elif relation == "fromend":
             own["ord"] = -own.get("ord", 1)
-    if "atend" in own and own["kind"] == "door":
+    if "atend" in own and own["kind"] == "door" and own.get("ord", 1) > 0:
         if "side" not in own:
             own["side"] = "ahead"
         elif own["side"] in ("left", "right"):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from functools import cache
 from typing import Any, NamedTuple, TypeAlias
 
-from semnav_env.language.chart.chart import Chart
-from semnav_env.language.chart.features import Features, features, merged
-from semnav_env.language.chart.frames import LIGHT, fitting
-from semnav_env.language.chart.lexicon import table_rows
+from studies.chart_reader.chart import Chart
+from studies.chart_reader.features import Features, features, merged
+from studies.chart_reader.frames import LIGHT, fitting
+from studies.chart_reader.lexicon import table_rows
 
 Entry: TypeAlias = "Features | str"
 """A bag of slots, or a mark."""
@@ -238,9 +238,11 @@ def _without_light(bag: Features) -> Features:
     names = {name for name, _ in bag}
     content = names - LIGHT - {"V"}
     if content:
-        useless = {"here", "it", "along", "sameside"}
-        if not content & STRAIGHT_MATTERS:
-            useless.add("str")
+        useless = {"here", "it", "sameside"}
+        if content != {"side"}:
+            useless.add("along")
+            if not content & STRAIGHT_MATTERS:
+                useless.add("str")
     else:
         useless = {"along"} if "str" in names else set()
     return tuple(pair for pair in bag if pair[0] not in useless) if useless & names else bag

@@ -8,17 +8,18 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib.resources import files
+from pathlib import Path
 from itertools import product
 from typing import Any
 
 from rapidfuzz.distance import OSA
 from rapidfuzz.process import extract
 
-from semnav_env.language.chart.features import Features, features, read_features
+from studies.chart_reader.features import Features, features, read_features
 from semnav_env.language.language import Language
 from semnav_env.language.languages import languages
 
-TABLES = files("semnav_env.language.chart") / "tables"
+TABLES = Path(__file__).parent / "tables"
 
 _WORD = re.compile(
     r"\d+(?:[.,]\d+)+|\d+(?:st|nd|rd|th)\b|<\w+>|[^\W\d_<>]+(?:'(?!s\b)[^\W\d_]+)*|'s\b|'n\b|\d+|[^\s\"'()_]"

@@ -8,7 +8,7 @@ from enum import Enum
 from functools import cache
 from typing import Any
 
-from semnav_env.language.chart.features import Features
+from studies.chart_reader.features import Features
 from semnav_env.language.clauses import CLAUSE_KINDS, Clause, GoToDoor, GoToRoom, SearchHouse
 from semnav_env.language.declarations import Multiples, forms_of, open_fields
 from semnav_env.language.references import (

@@ -7,8 +7,8 @@ from collections import defaultdict
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
-from semnav_env.language.chart.features import Features
-from semnav_env.language.chart.lexicon import table_rows
+from studies.chart_reader.features import Features
+from studies.chart_reader.lexicon import table_rows
 
 LIGHT = frozenset(("str", "along", "here", "it", "sameside", "twice"))
 """Slots that a frame leaves unread if it must, at a cost."""

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 from rapidfuzz.distance import OSA
 
-from semnav_env.language.chart.features import Features, features
-from semnav_env.language.chart.lexicon import Lexicon, Node, lexicon_of, spelt_number, words_of
+from studies.chart_reader.features import Features, features
+from studies.chart_reader.lexicon import Lexicon, Node, lexicon_of, spelt_number, words_of
 from semnav_env.language.languages import languages
 from semnav_env.language.rooms import spoken_names
 

@@ -1,0 +1,116 @@
+"""`python -m studies chart-reader`: train and measure the chart reader beside today's grammar."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from semnav_agents.translating.interpreter import understand as with_second_opinion
+from semnav_env.language.corpora import load_sentences, verdicts
+from semnav_env.language.parser import parse
+from studies.chart_reader.examples import Example, all_examples
+from studies.chart_reader.lexicon import TABLES
+from studies.chart_reader.measuring import OUTCOMES, Limits, chosen_limits, counted
+from studies.chart_reader.training import Trainer
+from studies.corpora import development_corpora, held_out_corpora
+
+CODES = {"english": "en", "german": "de"}
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Train the chart reader's ranker and measure it, each author left out in turn.
+
+    Attributes:
+        held_out: measure the held-out authors, too.
+        compare: measure today's grammar and the second opinion on the same sets; it is slow.
+        write: write the weights that were learned from all development sets.
+    """
+
+    held_out: bool = False
+    compare: bool = False
+    write: bool = False
+
+    def run(self) -> int:
+        """Print a table by language."""
+        print("| language | authors | reader | n |" + "".join(f" {o} |" for o in OUTCOMES), end="")
+        print(" infeasible taken |\n|---|---|---|---|" + "---|" * (len(OUTCOMES) + 1))
+        for name, code in CODES.items():
+            self._measure(name, code)
+        return 0
+
+    def _measure(self, name: str, code: str) -> None:
+        files = [file for file in development_corpora() if name in file.stem]
+        examples = list(all_examples([(file, code) for file in files]))
+        trainer = Trainer(examples)
+        chances = left_out_chances(trainer)
+        limits = chosen_limits(examples, chances)
+        title = f"chart, author left out, acts from {limits.act:g}"
+        _print(name, "1 to 6", title, counted(examples, chances, limits))
+        self._compare(name, "1 to 6", files)
+        learned = trainer.train(_unambiguous(examples))
+        weights = {n: round(float(w), 3) for n, w in zip(trainer.names, learned, strict=True)}
+        if self.write:
+            text = json.dumps(weights, indent=0, ensure_ascii=False)
+            (TABLES / f"weights_{code}.json").write_text(text + "\n", "utf-8")
+        if self.held_out:
+            files = [file for file in held_out_corpora() if name in file.stem]
+            others = list(all_examples([(file, code) for file in files]))
+            found = [_chances(each, weights) for each in others]
+            for own in (limits, Limits(act=0.7), Limits(act=0.5)):
+                counts = counted(others, found, own)
+                _print(name, "7 and 8", f"chart, acts from {own.act:g}", counts)
+            self._compare(name, "7 and 8", files)
+
+    def _compare(self, name: str, authors: str, files: Sequence[Path]) -> None:
+        if not self.compare:
+            return
+        for title, reader in (("grammar", parse), ("second opinion", with_second_opinion)):
+            counts: dict[str, Counter[str]] = {}
+            for file in files:
+                for each in verdicts(load_sentences(file), None, reader):
+                    kind = counts.setdefault(each.sentence.kind, Counter())
+                    kind[each.outcome.value] += 1
+            _print(name, authors, title, counts)
+
+
+def left_out_chances(trainer: Trainer) -> list[np.ndarray]:
+    """The probabilities of each example's candidates, learned from the other authors."""
+    examples = trainer.examples
+    found: dict[int, np.ndarray] = {}
+    for author in dict.fromkeys(each.author for each in examples):
+        known = [i for i in _unambiguous(examples) if examples[i].author != author]
+        weights = trainer.train(known)
+        for i, each in enumerate(examples):
+            if each.author == author:
+                found[i] = trainer.probabilities(i, weights)
+    return [found[i] for i in range(len(examples))]
+
+
+def _unambiguous(examples: Sequence[Example]) -> list[int]:
+    return [i for i, each in enumerate(examples) if each.sentence.kind != "ambiguous"]
+
+
+def _chances(example: Example, weights: dict[str, float]) -> np.ndarray:
+    rows = example.features
+    scores = np.array([sum(weights.get(n, 0.0) * v for n, v in row.items()) for row in rows])
+    raised = np.exp(scores - scores.max())
+    found: np.ndarray = raised / raised.sum()
+    return found
+
+
+def _print(name: str, authors: str, title: str, counts: dict[str, Counter[str]]) -> None:
+    feasible, infeasible = counts["feasible"], counts["infeasible"]
+    cells = "".join(f" {feasible[outcome]} |" for outcome in OUTCOMES)
+    taken = f"{infeasible['misread']} of {infeasible.total()}"
+    total = feasible.total()
+    print(f"| {name} | {authors} | {title} | {total} |{cells} {taken} |", flush=True)
+
+
+if __name__ == "__main__":
+    raise SystemExit(Arguments().run())
