@@ -197,7 +197,10 @@ class _Beam:
         costs = skip_costs()
         if stop > start + 1:
             return 0.0
-        return max((0.3 * costs[s] for s in self._chart.at[start] if s in PROTECTED), default=0.0)
+        hidden = {s: 0.3 * costs[s] for s in self._chart.at[start] if s in PROTECTED}
+        if "V" in self._chart.at[start]:
+            hidden["V"] = 0.4
+        return max(hidden.values(), default=0.0)
 
     def _aside(
         self,

@@ -6,7 +6,9 @@ import json
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -16,6 +18,7 @@ from semnav_env.language.parser import parse
 from studies.chart_reader.examples import Example, all_examples
 from studies.chart_reader.lexicon import TABLES
 from studies.chart_reader.measuring import OUTCOMES, Limits, chosen_limits, counted
+from studies.chart_reader.reading import understand_with_doubt
 from studies.chart_reader.training import Trainer
 from studies.corpora import development_corpora, held_out_corpora
 
@@ -30,11 +33,14 @@ class Arguments:
         held_out: measure the held-out authors, too.
         compare: measure today's grammar and the second opinion on the same sets; it is slow.
         write: write the weights that were learned from all development sets.
+        doubt: measure the written weights with the learned translator as a second opinion on the
+            held-out authors, who are the only ones from whom it has not learned.
     """
 
     held_out: bool = False
     compare: bool = False
     write: bool = False
+    doubt: bool = False
 
     def run(self) -> int:
         """Print a table by language."""
@@ -66,17 +72,27 @@ class Arguments:
                 counts = counted(others, found, own)
                 _print(name, "7 and 8", f"chart, acts from {own.act:g}", counts)
             self._compare(name, "7 and 8", files)
+            if self.doubt:
+                for least in (limits.act, 0.7, 0.5):
+                    reader = partial(understand_with_doubt, limits=Limits(act=least))
+                    title = f"chart with doubt, acts from {least:g}"
+                    _print(name, "7 and 8", title, _judged(files, reader, code))
 
     def _compare(self, name: str, authors: str, files: Sequence[Path]) -> None:
         if not self.compare:
             return
         for title, reader in (("grammar", parse), ("second opinion", with_second_opinion)):
-            counts: dict[str, Counter[str]] = {}
-            for file in files:
-                for each in verdicts(load_sentences(file), None, reader):
-                    kind = counts.setdefault(each.sentence.kind, Counter())
-                    kind[each.outcome.value] += 1
-            _print(name, authors, title, counts)
+            _print(name, authors, title, _judged(files, reader, None))
+
+
+def _judged(files: Sequence[Path], reader: Any, code: str | None) -> dict[str, Counter[str]]:
+    """How many texts of each kind come to which outcome."""
+    counts: dict[str, Counter[str]] = {}
+    for file in files:
+        for each in verdicts(load_sentences(file), code, reader):
+            kind = counts.setdefault(each.sentence.kind, Counter())
+            kind[each.outcome.value] += 1
+    return counts
 
 
 def left_out_chances(trainer: Trainer) -> list[np.ndarray]:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from semnav_agents.translating.files import load_translator
+from semnav_agents.translating.interpreter import DoubtLimits
+from semnav_agents.translating.translator import translate
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.errors import AmbiguousCommandError, CommandError
@@ -96,4 +99,22 @@ def understand(
     if first.probability >= limits.act:
         return first.command
     asked = tuple(each.command for each in reading.ranked[:2])
+    raise AmbiguousCommandError(text[:200], asked, tuple(map(str, asked)))
+
+
+def understand_with_doubt(
+    text: str, language: str | None = None, rooms: Sequence[str] = (), limits: Limits = Limits()
+) -> Command:
+    """As `understand`, but acting only on what the learned translator takes for likely, too.
+
+    Raises:
+        AmbiguousCommandError: as `understand`, or the translator doubts the reading.
+        CommandError: none is likely.
+    """
+    command = understand(text, language, rooms, limits)
+    translated = translate(text, rooms, load_translator())
+    likeness = translated.likeness_of(command) if translated else None
+    if likeness is None or likeness >= DoubtLimits().acting:
+        return command
+    asked = tuple(each.command for each in read(text, language, rooms).ranked[:2])
     raise AmbiguousCommandError(text[:200], asked, tuple(map(str, asked)))
