@@ -49,7 +49,26 @@ NO_FRAME, NO_FRAME_FRAGMENT = 4.0, 2.0
 """Costs of a bag that no frame takes, and of one that may change another bag."""
 
 FRAGMENT = frozenset(
-    "num aft obj be side at on past to into in within dist angle secs until front frontit".split()
+    [
+        "num",
+        "aft",
+        "obj",
+        "be",
+        "side",
+        "at",
+        "on",
+        "past",
+        "to",
+        "into",
+        "in",
+        "within",
+        "dist",
+        "angle",
+        "secs",
+        "until",
+        "front",
+        "frontit",
+    ]
 )
 
 LONGEST_ASIDE = 8
@@ -169,12 +188,16 @@ class _Beam:
         if both is not None:
             both = _without_light(both)
             how = (f"join:{parted}", *slots) if bag else slots
-            self._put(stop, cost + (JOIN[parted] if bag else 0.0), entries, both, "", Trace(trace, how))
+            self._put(
+                stop, cost + (JOIN[parted] if bag else 0.0), entries, both, "", Trace(trace, how)
+            )
 
     def _skips(self, at: int) -> list[tuple[int, float, str]]:
         """Ways to leave out words: end, cost and name."""
         spans, costs = self._chart.at[at], skip_costs()
-        single = {s for s, row in spans.items() if any(stop == at + 1 and c <= 0.5 for stop, _, c in row)}
+        single = {
+            s for s, row in spans.items() if any(stop == at + 1 and c <= 0.5 for stop, _, c in row)
+        }
         found = [
             (stop, costs[symbol] + cost + self._hidden(at, stop), symbol)
             for symbol in FREE
@@ -214,7 +237,9 @@ class _Beam:
         """Leave out a remark up to the next comma or full stop."""
         for start, _, _ in self._chart.at[at].get("ASIDE", ()):
             stop = start
-            while stop < len(self._chart.at) and not {"COMMA", "STOP"} & self._chart.at[stop].keys():
+            while (
+                stop < len(self._chart.at) and not {"COMMA", "STOP"} & self._chart.at[stop].keys()
+            ):
                 stop += 1
             inside = {symbol for spans in self._chart.at[start:stop] for symbol in spans}
             if stop - start <= LONGEST_ASIDE and not inside & (PROTECTED | {"NDOOR", "NPLACE"}):
@@ -269,8 +294,28 @@ def _closed(
 
 
 NOUN_TAGS = frozenset(
-    "ell bare after atend before near opposite count afterit side ord came sameside fromend doorway "
-    "room numbered door nxt wall".split()
+    [
+        "ell",
+        "bare",
+        "after",
+        "atend",
+        "before",
+        "near",
+        "opposite",
+        "count",
+        "afterit",
+        "side",
+        "ord",
+        "came",
+        "sameside",
+        "fromend",
+        "doorway",
+        "room",
+        "numbered",
+        "door",
+        "nxt",
+        "wall",
+    ]
 )
 
 

@@ -196,7 +196,9 @@ class Chart:
             return
         here, first = self._symbols[start], self._grammar.first
         for symbol in item.symbols:
-            if symbol in here or not here.isdisjoint(first.get(symbol.lstrip("!"), NOTHING | {symbol.lstrip("!")})):
+            if symbol in here or not here.isdisjoint(
+                first.get(symbol.lstrip("!"), NOTHING | {symbol.lstrip("!")})
+            ):
                 yield from self.find(symbol, start)
 
 

@@ -73,10 +73,9 @@ class Arguments:
                 _print(name, "7 and 8", f"chart, acts from {own.act:g}", counts)
             self._compare(name, "7 and 8", files)
             if self.doubt:
-                for least in (limits.act, 0.7, 0.5):
-                    reader = partial(understand_with_doubt, limits=Limits(act=least))
-                    title = f"chart with doubt, acts from {least:g}"
-                    _print(name, "7 and 8", title, _judged(files, reader, code))
+                reader = partial(understand_with_doubt, limits=limits)
+                title = f"chart, acts from {limits.act:g}, or from 0.5 with the translator"
+                _print(name, "7 and 8", title, _judged(files, reader, code))
 
     def _compare(self, name: str, authors: str, files: Sequence[Path]) -> None:
         if not self.compare:

@@ -66,9 +66,7 @@ def _add(so_far: Edited, bag: Features) -> Iterator[Edited]:
 
 
 def _with(so_far: Edited, bags: tuple[Entry, ...], cost: float, tag: str) -> Edited:
-    return so_far._replace(
-        cost=so_far.cost + cost, bags=bags, tags=(*so_far.tags, f"edit:{tag}")
-    )
+    return so_far._replace(cost=so_far.cost + cost, bags=bags, tags=(*so_far.tags, f"edit:{tag}"))
 
 
 def _correct(so_far: Edited, bag: Features) -> Iterator[Edited]:
@@ -127,7 +125,7 @@ def _before(so_far: Edited, bag: Features) -> Iterator[Edited]:
 
 
 def _later(so_far: Edited, bag: Features) -> Iterator[Edited]:
-    """ "Before you turn left, wait": at the beginning it waits for the bag behind it."""
+    """What is said behind "before you": at the beginning it waits for the next bag."""
     if so_far.bags:
         yield _with(so_far, (*so_far.bags, bag), 0.0, "later")
     else:

@@ -7,11 +7,11 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
+from semnav_env.language.corpora import Sentence, load_sentences
+from semnav_env.language.corpora.meanings import meaning_of, normal
+from semnav_env.language.corpora.measure import rooms_in
 from studies.chart_reader.ranker import features_of, text_features
 from studies.chart_reader.reader import candidates, chart_of
-from semnav_env.language.corpora import Sentence, load_sentences
-from semnav_env.language.corpora.measure import rooms_in
-from semnav_env.language.corpora.meanings import meaning_of, normal
 
 
 @dataclass(frozen=True)
@@ -48,9 +48,7 @@ def example_of(sentence: Sentence, language: str, rooms: tuple[str, ...], author
     forms = [None if c.command is None else normal(meaning_of(c.command)) for c in found]
     right = [form is not None and form in wanted for form in forms]
     rows = [*features_of(found), text_features(chart, sentence.text, found)]
-    return Example(
-        author, sentence, tuple(rows), (*forms, None), (*right, not any(right))
-    )
+    return Example(author, sentence, tuple(rows), (*forms, None), (*right, not any(right)))
 
 
 def all_examples(files: list[tuple[Path, str]]) -> Iterator[Example]:

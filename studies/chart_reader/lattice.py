@@ -10,14 +10,33 @@ from typing import NamedTuple
 
 from rapidfuzz.distance import OSA
 
-from studies.chart_reader.features import Features, features
-from studies.chart_reader.lexicon import Lexicon, Node, lexicon_of, spelt_number, words_of
 from semnav_env.language.languages import languages
 from semnav_env.language.rooms import spoken_names
+from studies.chart_reader.features import Features, features
+from studies.chart_reader.lexicon import Lexicon, Node, lexicon_of, spelt_number, words_of
 
 SLIP, COMPOUND, JOINED, BORROWED = 1.2, 0.1, 0.0, 0.5
 """Costs of a corrected word, of a compound, of a word that is written as two, and of a word of
 another language."""
+
+INSIDE_NAME, INSIDE_PREPOSITION = 0.8, 0.6
+"""Costs of reading words of a name or of a preposition of several words as something else."""
+
+LONG = frozenset(
+    [
+        "ROOMNAME",
+        "NEAR",
+        "BEFORE",
+        "AFTER",
+        "FRONT",
+        "UNTIL",
+        "PAST",
+        "OPPOSITE",
+        "OUTOF",
+        "BETWEEN",
+    ]
+)
+"""Symbols whose words are kept together."""
 
 MOST_SLIPS = 3.0
 """The most that the corrections of a phrase may cost."""
@@ -62,7 +81,7 @@ class Lattice:
             if self.words[at].isalpha() and not self._knows(self.words[at]):
                 self._borrow(at)
         self._decimals()
-        self._favour_names()
+        self._favour_long_spans()
         self.edges = [
             [Edge(stop, symbol, given, cost) for (stop, symbol, given), cost in found.items()]
             for found in self._found
@@ -185,16 +204,18 @@ class Lattice:
         found = self._found[at].items() if at < len(self.words) else ()
         return [(stop, given[0][1], c) for (stop, s, given), c in found if s == "NUM"]
 
-    def _favour_names(self) -> None:
-        """The words of a room's name are seldom anything else."""
+    def _favour_long_spans(self) -> None:
+        """The words of a room's name or of a long preposition are seldom anything else."""
         for start, found in enumerate(self._found):
             for (stop, symbol, _), cost in list(found.items()):
-                if symbol == "ROOMNAME" and cost < 1.0:
-                    for at in range(start, stop):
-                        for key in self._found[at]:
-                            inside = key[0] <= stop and (at, key[0]) != (start, stop)
-                            if inside and key[1] not in ("ROOMNAME", "DET"):
-                                self._found[at][key] += 0.8
+                more = INSIDE_NAME if symbol == "ROOMNAME" else INSIDE_PREPOSITION
+                if symbol not in LONG or cost >= 1.0 or stop < start + 2 - (symbol == "ROOMNAME"):
+                    continue
+                for at in range(start, stop if symbol == "ROOMNAME" else start + 1):
+                    for key in self._found[at]:
+                        inside = key[0] <= stop and (at, key[0]) != (start, stop)
+                        if inside and key[1] not in ("ROOMNAME", "DET"):
+                            self._found[at][key] += more
 
 
 def _is_of_other(word: str, lexicon: Lexicon) -> bool:

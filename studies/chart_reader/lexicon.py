@@ -8,16 +8,16 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib.resources import files
-from pathlib import Path
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 from rapidfuzz.distance import OSA
 from rapidfuzz.process import extract
 
-from studies.chart_reader.features import Features, features, read_features
 from semnav_env.language.language import Language
 from semnav_env.language.languages import languages
+from studies.chart_reader.features import Features, features, read_features
 
 TABLES = Path(__file__).parent / "tables"
 
@@ -26,6 +26,9 @@ _WORD = re.compile(
 )
 _SET = re.compile(r"<\w+>")
 _FOLDED = {"’": "'", "‘": "'", "ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss", "“": '"', "„": '"'}
+
+NOUNS = {"NDOOR", "NHALL", "NPLACE", "NTURN", "NEND", "NWALL", "NSTART"}
+"""Symbols of nouns that may be the last part of a compound."""
 
 NEVER_MEANT = {"HES", "FILL", "SOFT", "ASIDE", "GREET", "BEYOND", "FINITE", "NAREA"}
 """Symbols of words to which no misspelt word is corrected."""
@@ -87,15 +90,19 @@ class Lexicon:
         self._read_phrases()
         self._read_numbers()
         self._read_own()
+        numbers = {w for w, node in self.root.words.items() if _has(node, "NUM")}
+        self.meant -= numbers  # a number is never made up
         self._spelt: dict[str, tuple[str, ...]] = {}
 
     def meant_by(self, word: str) -> tuple[str, ...]:
         """The known words that an unknown one may be a slip of."""
         if word not in self._spelt:
             most = 0 if len(word) < 3 else 1 if len(word) < 7 else 2
-            found = extract(
-                word, self.meant, scorer=OSA.distance, score_cutoff=most, limit=6
-            ) if most else ()
+            found = (
+                extract(word, self.meant, scorer=OSA.distance, score_cutoff=most, limit=6)
+                if most
+                else ()
+            )
             self._spelt[word] = tuple(
                 each for each, slips, _ in found if slips == min(s for _, s, _ in found)
             )
@@ -103,7 +110,7 @@ class Lexicon:
 
     def parts_of(self, word: str) -> tuple[tuple[str, ...], ...]:
         """The known words of which an unknown compound is made."""
-        found = []
+        found: list[tuple[str, ...]] = []
         for first in self._prefixes["separable"]:
             rest = word.removeprefix(first)
             if rest != word:
@@ -135,7 +142,7 @@ class Lexicon:
             for phrase in filter(None, table.get(name, "").split("|")):
                 self.add(phrase, symbol, read_features(given))
         self._verbs = {w for w, node in self.root.words.items() if _has(node, "V")}
-        self.nouns = {w for w, node in self.root.words.items() if _has(node, "N")}
+        self.nouns = {w for w, node in self.root.words.items() if _is_noun(node)}
 
     def _read_numbers(self) -> None:
         for n, row in enumerate(self.language.ordinals, 1):
@@ -218,8 +225,11 @@ class Lexicon:
 
 
 def _has(node: Node, symbol: str) -> bool:
-    return any(each[0] == symbol or symbol == "N" and each[0][0] == "N" and each[0] != "NUM"
-               for each in node.entries)
+    return any(each == symbol for each, _ in node.entries)
+
+
+def _is_noun(node: Node) -> bool:
+    return any(symbol in NOUNS for symbol, _ in node.entries)
 
 
 def _plain(text: str) -> str:
@@ -255,7 +265,9 @@ def spelt_number(n: int, code: str) -> str:
         return "eins" if code == "de" and n == 1 else ones[n]
     if n % 10 == 0:
         return tens[n // 10]
-    return f"{tens[n // 10]} {ones[n % 10]}" if code == "en" else f"{ones[n % 10]}und{tens[n // 10]}"
+    return (
+        f"{tens[n // 10]} {ones[n % 10]}" if code == "en" else f"{ones[n % 10]}und{tens[n // 10]}"
+    )
 
 
 def spoken_numbers(code: str) -> Iterator[tuple[str, int]]:

@@ -6,19 +6,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple, cast
 
-from studies.chart_reader.beam import Entry
-from studies.chart_reader.edits import Edited
-from studies.chart_reader.features import Features, features
-from studies.chart_reader.frames import Frame, fitting
-from studies.chart_reader.templates import (
-    CannotSay,
-    NoClause,
-    clause_of,
-    degrees_of,
-    distance_of,
-    reference_of,
-    seconds_of,
-)
 from semnav_env.language.clauses import (
     Approach,
     Clause,
@@ -30,6 +17,19 @@ from semnav_env.language.clauses import (
 )
 from semnav_env.language.command import MAX_CLAUSES
 from semnav_env.language.references import DoorReference, PlaceReference, RoomReference
+from studies.chart_reader.beam import Entry
+from studies.chart_reader.edits import Edited
+from studies.chart_reader.features import Features, features
+from studies.chart_reader.frames import Frame, fitting
+from studies.chart_reader.templates import (
+    NoClauseError,
+    UnsayableError,
+    clause_of,
+    degrees_of,
+    distance_of,
+    reference_of,
+    seconds_of,
+)
 
 MOST_DRAFTS = 10
 """The most programs of one way to part a text that are followed."""
@@ -132,7 +132,7 @@ def _conditional(
     said = noun if isinstance(noun, tuple) else draft.last
     try:
         base, what = _condition_on(draft, said)
-    except NoClause:
+    except NoClauseError:
         yield draft.tagged("if:unsayable", unsayable=True)
         return
     absent = kind.startswith("no")
@@ -163,7 +163,11 @@ def _conditional(
         return
     start = Draft(draft.cost, (), said, False, draft.tags, draft.unsayable)
     for first in _extended(start, then):
-        for second in _extended(first._replace(clauses=(), last=said, leads=False), otherwise) if otherwise else [None]:
+        for second in (
+            _extended(first._replace(clauses=(), last=said, leads=False), otherwise)
+            if otherwise
+            else [None]
+        ):
             whole = second or first
             parts = (first.clauses, second.clauses if second else ())
             if any(len(part) > 1 for part in parts) or not parts[0] or (second and not parts[1]):
@@ -179,7 +183,7 @@ def _condition_on(
 ) -> tuple[tuple[Clause, ...], DoorReference | PlaceReference]:
     """What leads to a condition, and what it asks for."""
     if not said:
-        raise CannotSay
+        raise UnsayableError
     room = draft.clauses[-1] if draft.clauses else None
     if said == FIRST and isinstance(room, GoToRoom):  # "to the kitchen, and if the door is closed"
         said = features({"kind": "room", "name": room.name})
@@ -201,22 +205,23 @@ def _at_the_door(clause: Clause, said: Features) -> Clause:
 
 
 def _is_next(door: Clause, following: Clause) -> bool:
-    """ "If it is closed, take the next": closed doors do not count, so it is the first open one."""
+    """Whether a door is the next one: closed doors do not count, so it is the first open one."""
     both = isinstance(door, GoToDoor) and isinstance(following, GoToDoor)
     return both and door.door.ordinal == 1 and following.door.ordinal in (1, 2)
 
 
 def _following(door: Clause, clause: Clause) -> Clause:
-    """ "If the second is closed, take the next": the third."""
-    if isinstance(door, GoToDoor) and isinstance(clause, GoToDoor) and clause.door.ordinal == 1:
-        if door.door.ordinal > 1 and clause.door.side in (None, door.door.side):
-            following = DoorReference(door.door.ordinal + 1, door.door.side)
-            return replace(clause, door=following)
+    """The clause for "the next" if a door is closed: behind the second door it is the third."""
+    if not isinstance(door, GoToDoor) or not isinstance(clause, GoToDoor):
+        return clause
+    second, following = door.door, clause.door
+    if following.ordinal == 1 and second.ordinal > 1 and following.side in (None, second.side):
+        return replace(clause, door=DoorReference(second.ordinal + 1, second.side))
     return clause
 
 
 def _else_without_if(draft: Draft, otherwise: Features | None) -> Iterator[Draft]:
-    """ "Take the door on the left, and if there is none, turn around"."""
+    """What is done otherwise, if what was said before is not there."""
     before = draft.clauses[-1] if draft.clauses else None
     what = before.door if isinstance(before, GoToDoor) else getattr(before, "at", None)
     if otherwise is None or not isinstance(what, DoorReference | PlaceReference):
@@ -254,7 +259,11 @@ def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, .
         base = slot.partition(".")[0]
         if "sameside" in own and last.get("side"):
             own.pop("sameside")
-            yield 0.0, ("same side",), features(rest | {slot: features(own | {"side": last["side"]})})
+            yield (
+                0.0,
+                ("same side",),
+                features(rest | {slot: features(own | {"side": last["side"]})}),
+            )
             continue
         if "ell" in own and last.get("kind") in ("place", "turn") and "name" not in last:
             taken = own | {"kind": last["kind"], "place": last["place"]}
@@ -265,10 +274,11 @@ def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, .
                 rest.setdefault("side", taken.pop("side"))
             rest[f"{base}.{last['kind']}"] = features(taken)
             yield 0.2, ("ellipsis:place",), features(rest)
-        if own.get("kind") == "door" and "side" not in own and last.get("kind") == "door":
-            if last.get("side") in ("left", "right") and "side" not in dict(bag):
-                rest[slot] = features(own | {"side": last["side"]})
-                yield (0.0 if "ell" in own else 0.6), ("ellipsis:side",), features(rest)
+        is_door = own.get("kind") == "door" and last.get("kind") == "door"
+        sided = "side" in own or "side" in dict(bag)
+        if is_door and not sided and last.get("side") in ("left", "right"):
+            rest[slot] = features(own | {"side": last["side"]})
+            yield (0.0 if "ell" in own else 0.6), ("ellipsis:side",), features(rest)
 
 
 def _may_share_side(draft: Draft, bag: Features) -> bool:
@@ -292,10 +302,10 @@ def _framed(draft: Draft, frame: Frame, bag: Features) -> Iterator[Draft]:
     try:
         for step in frame.steps * times:
             done = _with_step(done, step, bag, frame.steps[0] == "turn around")
-    except CannotSay:
+    except UnsayableError:
         yield draft.tagged("unsayable", unsayable=True)
         return
-    except NoClause:
+    except NoClauseError:
         return
     yield done
     if frame.steps[0] == "turn around" and len(frame.steps) > 1:
@@ -305,7 +315,7 @@ def _framed(draft: Draft, frame: Frame, bag: Features) -> Iterator[Draft]:
 
 
 def _turned_already(before: Draft, done: Draft) -> Iterator[Draft]:
-    """ "Turn around and go back to the corner": there is one turn."""
+    """A way back behind a turn: "turn around and go back to the corner" has one turn."""
     at = len(before.clauses)
     if at and before.clauses[-1] == done.clauses[at]:
         yield done.tagged("turned already", clauses=(*before.clauses, *done.clauses[at + 1 :]))
@@ -315,7 +325,7 @@ def _with_step(draft: Draft, step: str, bag: Features, returning: bool) -> Draft
     """A draft with the clauses of a step.
 
     Raises:
-        CannotSay: no clause says it.
+        UnsayableError: no clause says it.
     """
     values: dict[str, Any] = {}
     before: list[Clause] = []
@@ -339,12 +349,12 @@ def _with_step(draft: Draft, step: str, bag: Features, returning: bool) -> Draft
         return draft._replace(last=noun, leads=False)
     clause = clause_of(step, values)
     if isinstance(clause, Follow) and getattr(clause.until, "side", None) in BEHIND:
-        raise NoClause
+        raise NoClauseError
     clauses = draft.clauses
     if "$last" in step:
         if not draft.last:
             if step.startswith("hallway"):
-                raise NoClause
+                raise NoClauseError
             draft = draft.tagged("no last")
         elif draft.leads and clauses and isinstance(clauses[-1], GoToDoor | GoToRoom):
             clauses = clauses[:-1]  # said again, and more exactly
@@ -378,11 +388,11 @@ def _value(word: str, draft: Draft, bag: Features) -> Any:
     value = constants.get(name) or next(v for slot, v in bag if slot.partition(".")[0] == name)
     if feature:
         if feature not in dict(value):
-            raise NoClause
+            raise NoClauseError
         return dict(value)[feature]
     if with_side:
         if "side" in dict(value):
-            raise NoClause
+            raise NoClauseError
         return features(dict(value) | {"side": dict(bag)["side"]})
     return value
 
@@ -393,12 +403,12 @@ def placed(
     """The clauses that lead to where a noun phrase is counted from, and its reference there.
 
     Raises:
-        CannotSay: no clause says where it is.
+        UnsayableError: no clause says where it is.
     """
     own = dict(noun)
     before: list[Clause] = []
     if {"came", "sameside"} & own.keys():
-        raise CannotSay
+        raise UnsayableError
     for name, value in noun:
         relation = name.partition(".")[0]
         if relation == "after":
@@ -406,7 +416,7 @@ def placed(
             before += [*more, _past(reference)]
         elif relation == "afterit":
             if not draft.last:
-                raise NoClause
+                raise NoClauseError
             before.append(_past(reference_of(draft.last)))
         elif relation == "opposite":
             more, reference = placed(value, draft)
@@ -414,11 +424,11 @@ def placed(
             own["side"] = "opposite"
         elif relation == "before":
             if dict(value).get("place") not in HALLWAY_ENDS:
-                raise CannotSay
+                raise UnsayableError
             own.setdefault("ord", -1)
         elif relation == "near":
             if dict(value).get("place") != "end":
-                raise CannotSay
+                raise UnsayableError
             own["atend"] = 1
         elif relation == "fromend":
             own["ord"] = -own.get("ord", 1)
@@ -436,7 +446,7 @@ def _past(reference: DoorReference | PlaceReference | RoomReference) -> Follow:
     try:
         return Follow(reference, past=True)
     except ValueError:
-        raise NoClause from None
+        raise NoClauseError from None
 
 
 def _counted_on(before: Draft, done: Draft) -> Iterator[Draft]:
@@ -460,7 +470,12 @@ def _counted_on(before: Draft, done: Draft) -> Iterator[Draft]:
             continue
         counted = replace(cast(Any, clause), **{name: replace(cast(Any, second), **changes)})
         clauses = (*done.clauses[:-1], counted)
-        yield done.tagged("counted on", "counted on:turn" if isinstance(passed, Turn) else "counted on:way", cost=0.3, clauses=clauses)
+        yield done.tagged(
+            "counted on",
+            "counted on:turn" if isinstance(passed, Turn) else "counted on:way",
+            cost=0.3,
+            clauses=clauses,
+        )
 
 
 def _named_twice(before: Draft, done: Draft) -> Iterator[Draft]:

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from semnav_env.language.clauses import Clause, Follow, GoToDoor, GoToRoom, Turn
 from studies.chart_reader.beam import PROTECTED
 from studies.chart_reader.chart import Chart
 from studies.chart_reader.lattice import SLIP
 from studies.chart_reader.lexicon import TABLES
-from semnav_env.language.clauses import Clause, Follow, GoToDoor, GoToRoom, Turn
 
 if TYPE_CHECKING:
     from studies.chart_reader.reader import Candidate
@@ -23,8 +23,40 @@ MOST_COST = 12.0
 """Larger costs count as this one."""
 
 QUESTION_WORDS = frozenset(
-    "is are was do does did what why who when how where which has have am "
-    "ist sind war was warum wer wann wie wo welche welcher hat habe bin wieso weshalb".split()
+    [
+        "is",
+        "are",
+        "was",
+        "do",
+        "does",
+        "did",
+        "what",
+        "why",
+        "who",
+        "when",
+        "how",
+        "where",
+        "which",
+        "has",
+        "have",
+        "am",
+        "ist",
+        "sind",
+        "war",
+        "was",
+        "warum",
+        "wer",
+        "wann",
+        "wie",
+        "wo",
+        "welche",
+        "welcher",
+        "hat",
+        "habe",
+        "bin",
+        "wieso",
+        "weshalb",
+    ]
 )
 
 
@@ -55,7 +87,9 @@ def _kind(clause: Clause) -> str:
     name = type(clause).__name__
     if isinstance(clause, Follow):
         what = clause.until
-        return f"{name}:{'past:' if clause.past else ''}{getattr(what, 'place', type(what).__name__)}"
+        return (
+            f"{name}:{'past:' if clause.past else ''}{getattr(what, 'place', type(what).__name__)}"
+        )
     if isinstance(clause, Turn):
         where = getattr(clause.at, "place", "by" if clause.degrees else "here")
         return f"{name}:{'around:' if clause.turning == 'around' else ''}{where}"
@@ -69,10 +103,16 @@ def text_features(chart: Chart, text: str, found: Sequence[Candidate]) -> dict[s
     costs = [each.cost for each in found if each.command is not None]
     best = min(costs, default=MOST_COST)
     values = {"none": 1.0, "none:no candidate": float(not costs), "none:cost": min(best, MOST_COST)}
-    values |= {f"none:cost over {limit}": float(best > limit) for limit in (0.6, 1.2, 2.0, 3.0, 5.0)}
+    values |= {
+        f"none:cost over {limit}": float(best > limit) for limit in (0.6, 1.2, 2.0, 3.0, 5.0)
+    }
     words = chart.lattice.words
     single = [
-        {symbol for symbol, row in spans.items() if any(stop == at + 1 and c <= 0.2 for stop, _, c in row)}
+        {
+            symbol
+            for symbol, row in spans.items()
+            if any(stop == at + 1 and c <= 0.2 for stop, _, c in row)
+        }
         for at, spans in enumerate(chart.at)
     ]
     beyond = sum("BEYOND" in symbols and not symbols & PROTECTED for symbols in single)
@@ -100,9 +140,7 @@ def weights(code: str) -> dict[str, float]:
     return table
 
 
-def probabilities(
-    rows: Sequence[Mapping[str, float]], weight: Mapping[str, float]
-) -> np.ndarray:
+def probabilities(rows: Sequence[Mapping[str, float]], weight: Mapping[str, float]) -> np.ndarray:
     """The probability of each row of features; shape (rows,)."""
     scores = np.array([sum(weight.get(name, 0.0) * v for name, v in row.items()) for row in rows])
     raised = np.exp(scores - scores.max())

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from semnav_env.language.command import Command
 from studies.chart_reader.beam import hypotheses, tags_of
 from studies.chart_reader.chart import Chart, grammar_of
 from studies.chart_reader.edits import edited
 from studies.chart_reader.lattice import Lattice
 from studies.chart_reader.lexicon import lexicon_of
 from studies.chart_reader.programs import programs
-from semnav_env.language.command import Command
 
 MOST_HYPOTHESES, MOST_CANDIDATES = 40, 24
 """The most hypotheses that become programs, and the most programs that are ranked."""

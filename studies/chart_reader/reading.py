@@ -14,7 +14,7 @@ from semnav_env.language.errors import AmbiguousCommandError, CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
 from semnav_env.language.speech.recognition import language_of_text
-from studies.chart_reader.measuring import Limits
+from studies.chart_reader.measuring import LIMITS, Limits
 from studies.chart_reader.ranker import features_of, probabilities, text_features, weights
 from studies.chart_reader.reader import candidates, chart_of
 
@@ -84,7 +84,7 @@ def _form(command: Command) -> object:
 
 
 def understand(
-    text: str, language: str | None = None, rooms: Sequence[str] = (), limits: Limits = Limits()
+    text: str, language: str | None = None, rooms: Sequence[str] = (), limits: Limits = LIMITS
 ) -> Command:
     """The command that a text means, like `semnav_env.language.parse`.
 
@@ -102,19 +102,30 @@ def understand(
     raise AmbiguousCommandError(text[:200], asked, tuple(map(str, asked)))
 
 
+LEAST_CONFIRMED = 0.5
+"""Probability from which on a reading is acted on if the translator takes it for likely."""
+
+
 def understand_with_doubt(
-    text: str, language: str | None = None, rooms: Sequence[str] = (), limits: Limits = Limits()
+    text: str, language: str | None = None, rooms: Sequence[str] = (), limits: Limits = LIMITS
 ) -> Command:
-    """As `understand`, but acting only on what the learned translator takes for likely, too.
+    """As `understand`, but a less likely reading is acted on if a learned translator agrees.
 
     Raises:
-        AmbiguousCommandError: as `understand`, or the translator doubts the reading.
+        AmbiguousCommandError: as `understand`, and the translator doubts the reading.
         CommandError: none is likely.
     """
-    command = understand(text, language, rooms, limits)
+    try:
+        return understand(text, language, rooms, limits)
+    except AmbiguousCommandError as error:
+        first = read(text, language, rooms).ranked[0]
+        if first.probability >= LEAST_CONFIRMED and _is_confirmed(text, rooms, first.command):
+            return first.command
+        raise error from None
+
+
+def _is_confirmed(text: str, rooms: Sequence[str], command: Command) -> bool:
+    """Whether the translator takes a command for as likely as `LearnedInterpreter` asks for."""
     translated = translate(text, rooms, load_translator())
     likeness = translated.likeness_of(command) if translated else None
-    if likeness is None or likeness >= DoubtLimits().acting:
-        return command
-    asked = tuple(each.command for each in read(text, language, rooms).ranked[:2])
-    raise AmbiguousCommandError(text[:200], asked, tuple(map(str, asked)))
+    return likeness is not None and likeness >= DoubtLimits().acting

@@ -8,7 +8,6 @@ from enum import Enum
 from functools import cache
 from typing import Any
 
-from studies.chart_reader.features import Features
 from semnav_env.language.clauses import CLAUSE_KINDS, Clause, GoToDoor, GoToRoom, SearchHouse
 from semnav_env.language.declarations import Multiples, forms_of, open_fields
 from semnav_env.language.references import (
@@ -20,6 +19,7 @@ from semnav_env.language.references import (
     Side,
     Unit,
 )
+from studies.chart_reader.features import Features
 
 METRES = {"metres": 1.0, "cm": 0.01, "feet": 0.3048, "yards": 0.9144}
 """Length of each unit that is not a step, metres."""
@@ -28,11 +28,11 @@ OF_ROOMS = {"through": "room({})", "in": "room({})", "to": "to room({})"}
 """What the steps of doors are for a room."""
 
 
-class NoClause(Exception):
+class NoClauseError(Exception):
     """What a frame makes of its slots is no clause."""
 
 
-class CannotSay(NoClause):
+class UnsayableError(NoClauseError):
     """What is meant is clear, and no clause says it: a door beside a place, 30 centimetres."""
 
 
@@ -85,7 +85,7 @@ def clause_of(step: str, values: dict[str, Any]) -> Clause:
     """The clause of a step, with references and numbers for what stands in it.
 
     Raises:
-        NoClause: it is no clause.
+        NoClauseError: it is no clause.
     """
     template = template_of(step)
     given = {name: values[word] if word[0] == "$" else word for name, word in template.open.items()}
@@ -94,16 +94,16 @@ def clause_of(step: str, values: dict[str, Any]) -> Clause:
         return clause_of(OF_ROOMS[step.split()[0]].format("$room"), {"$room": room})
     if template.kind is GoToRoom:
         if room is None:
-            raise NoClause
+            raise NoClauseError
         given = {"name": room.name}
     for name, value in given.items():
         given[name] = _fitting(value, _options(template.kind, name))
     try:
         clause = template.kind(**template.fixed | given)
     except (ValueError, TypeError):
-        raise NoClause from None
+        raise NoClauseError from None
     if not any(form.covers(clause) for form in forms_of(template.kind)):
-        raise NoClause
+        raise NoClauseError
     return clause
 
 
@@ -118,7 +118,7 @@ def _fitting(value: Any, options: tuple[Any, ...]) -> Any:
     """A value as a field may have it.
 
     Raises:
-        NoClause: it may not.
+        NoClauseError: it may not.
     """
     for option in options:
         if isinstance(option, Enum) and option.value == value:
@@ -127,21 +127,21 @@ def _fitting(value: Any, options: tuple[Any, ...]) -> Any:
             return value
         if isinstance(option, Multiples) and type(value) is int:
             return value
-    raise NoClause
+    raise NoClauseError
 
 
 def reference_of(noun: Features) -> DoorReference | PlaceReference | RoomReference:
     """The reference of a noun phrase, without its relations.
 
     Raises:
-        CannotSay: no reference says it.
+        UnsayableError: no reference says it.
     """
     own = dict(noun)
     ordinal = own.get("ord", 1)
     if "count" in own or "numbered" in own:
         ordinal = own.get("n", 1)
     if ordinal != int(ordinal):
-        raise CannotSay
+        raise UnsayableError
     try:
         if own["kind"] == "room":
             return RoomReference(own["name"])
@@ -151,14 +151,14 @@ def reference_of(noun: Features) -> DoorReference | PlaceReference | RoomReferen
         place = Place(own["place"])
         return PlaceReference(place, 1 if place is Place.END else int(ordinal))
     except (ValueError, KeyError):
-        raise CannotSay from None
+        raise UnsayableError from None
 
 
 def distance_of(given: Features) -> Distance:
     """A distance from its number and unit.
 
     Raises:
-        CannotSay: it is too long or no multiple of half a metre.
+        UnsayableError: it is too long or no multiple of half a metre.
     """
     own = dict(given)
     try:
@@ -169,7 +169,7 @@ def distance_of(given: Features) -> Distance:
             metres = max(0.5, round(2 * metres) / 2)
         return Distance(float(round(metres, 3)))
     except (ValueError, KeyError):
-        raise CannotSay from None
+        raise UnsayableError from None
 
 
 def degrees_of(given: Features) -> int:

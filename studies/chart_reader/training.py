@@ -65,9 +65,7 @@ class Trainer:
             total = float(np.sum(np.log(every) - np.log(good)) + DECAY * away @ away)
             return total, transposed @ slope + 2 * DECAY * away
 
-        found = minimize(
-            loss, self._prior, jac=True, method="L-BFGS-B", options={"maxiter": STEPS}
-        )
+        found = minimize(loss, self._prior, jac=True, method="L-BFGS-B", options={"maxiter": STEPS})
         weights: np.ndarray = found.x
         return weights
 

@@ -21,7 +21,7 @@ from studies.chart_reader.lexicon import lexicon_of
 from studies.chart_reader.measuring import Limits, outcome_of
 from studies.chart_reader.reader import candidates, chart_of
 from studies.chart_reader.reading import read, understand
-from studies.chart_reader.templates import NoClause, clause_of, template_of
+from studies.chart_reader.templates import NoClauseError, clause_of, template_of
 from studies.chart_reader.training import Trainer
 
 ROOMS = ("kitchen", "room_12")
@@ -97,7 +97,7 @@ def test_a_step_takes_only_what_its_field_may_be() -> None:
     door = DoorReference(2, Side.LEFT)
     assert clause_of("through $x", {"$x": door}) == GoToDoor(door)
     assert clause_of("hallway for $x", {"$x": Distance(3.0)}) == Follow(Distance(3.0))
-    with pytest.raises(NoClause):
+    with pytest.raises(NoClauseError):
         clause_of("through $x", {"$x": Distance(3.0)})
 
 
@@ -180,7 +180,14 @@ def test_training_makes_the_right_candidates_likelier() -> None:
     texts = {"take the second left": "turn left at turning#2", "second left": "door(2,left)"}
     examples = [
         example_of(
-            Sentence("1", text, "feasible", (read_meaning(f"through {m}" if "door" in m else m),), "", "a"),
+            Sentence(
+                "1",
+                text,
+                "feasible",
+                (read_meaning(f"through {m}" if "door" in m else m),),
+                "",
+                "a",
+            ),
             *("en", (), "a"),
         )
         for text, m in texts.items()
