@@ -79,8 +79,10 @@ def _correct(so_far: Edited, bag: Features) -> Iterator[Edited]:
     if changed is not None:
         yield _with(so_far, (*so_far.bags[:-1], changed), 0.0, "part corrected")
     if fitting(bag):
-        complete = dict(bag).get("V") is not None
-        yield _with(so_far, (*so_far.bags[:-1], bag), 0.3 if complete else 0.9, "corrected")
+        cost = 0.3 if "V" in dict(bag) else 0.9
+        kept = (*so_far.bags[:-1], *_topic_of(before), bag)
+        tag = "corrected" if _topic_of(bag) else "corrected, same thing"
+        yield _with(so_far, (*so_far.bags[:-1], bag) if _topic_of(bag) else kept, cost, tag)
         yield _with(so_far, (*so_far.bags, bag), 1.5, "no for nothing")
     if len(so_far.bags) > 1 and not isinstance(so_far.bags[-2], str):
         earlier = replaced(so_far.bags[-2], bag)
@@ -94,18 +96,24 @@ def _deny(so_far: Edited, bag: Features) -> Iterator[Edited]:
         denied, before = so_far.bags[-1], so_far._replace(bags=so_far.bags[:-1])
         for each in _after_denial(before, denied, bag):
             yield each._replace(cost=each.cost + 0.5, tags=(*each.tags, "edit:denied before"))
-    noun = next((v for slot, v in bag if isinstance(v, tuple) and "." in slot), None)
-    if noun is None:
-        yield _with(so_far, so_far.bags, 0.1, "denied")
+    topic = _topic_of(bag)
+    yield _with(so_far, (*so_far.bags, *topic), 0.1, "denied")
+    if not topic:
         return
-    topic: Features = ((f"topic.{dict(noun)['kind']}", noun),)
-    yield _with(so_far, (*so_far.bags, topic), 0.1, "denied")
+    noun = topic[0][0][1]
     passed = features({"V": "pass", f"obj.{dict(noun)['kind']}": noun})
     yield _with(so_far, (*so_far.bags, passed), 1.0, "denied and passed")
 
 
+def _topic_of(bag: Features) -> tuple[Features, ...]:
+    """A bag that only speaks of what another one is about, if it is about something."""
+    noun = next((v for slot, v in bag if isinstance(v, tuple) and "kind" in dict(v)), None)
+    return () if noun is None else (((f"topic.{dict(noun)['kind']}", noun),),)
+
+
 def _after_denial(so_far: Edited, denied: Features, bag: Features) -> Iterator[Edited]:
     """What is said behind "not the first": instead of it, or anew."""
+    bag = _counted_from(denied, bag)
     changed = replaced(denied, bag)
     if changed is not None and "V" not in dict(bag):
         yield _with(so_far, (*so_far.bags, changed), 0.0, "instead of it")
@@ -118,6 +126,18 @@ def _after_denial(so_far: Edited, denied: Features, bag: Features) -> Iterator[E
             yield _with(so_far, bags, 0.6, "instead of that")
     if fitting(bag):
         yield _with(so_far, (*so_far.bags, bag), 0.3, "anew")
+
+
+def _counted_from(denied: Features, bag: Features) -> Features:
+    """What is said behind "not the first" with "the next" or "the one after it" as the second."""
+    old = next((dict(v) for _, v in denied if isinstance(v, tuple) and "kind" in dict(v)), None)
+    found = dict(bag)
+    for slot, value in bag if old else ():
+        own = dict(value) if isinstance(value, tuple) else {}
+        if old and {"nxt", "afterit"} & own.keys() and own.get("ord", 1) == 1:
+            kept = {name: each for name, each in own.items() if name not in ("nxt", "afterit")}
+            found[slot] = features(kept | {"ord": old.get("ord", 1) + 1})
+    return features(found)
 
 
 def _before(so_far: Edited, bag: Features) -> Iterator[Edited]:

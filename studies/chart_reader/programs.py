@@ -92,7 +92,14 @@ def programs(way: Edited) -> list[Draft]:
         drafts = sorted(grown, key=lambda draft: draft.cost)[:MOST_DRAFTS]
     once = [_without_repeats(each) for each in drafts]
     drafts += [each for each in once if each is not None]
+    drafts += [each for draft in drafts for each in _destination_first(draft)]
     return [d for d in drafts if d.unsayable or 0 < len(d.clauses) <= MAX_CLAUSES]
+
+
+def _destination_first(draft: Draft) -> Iterator[Draft]:
+    """A draft without the destination that is told before the way to it."""
+    if len(draft.clauses) > 2 and isinstance(draft.clauses[0], GoToRoom):
+        yield draft.tagged("destination first", cost=0.8, clauses=draft.clauses[1:])
 
 
 def _without_repeats(draft: Draft) -> Draft | None:
@@ -252,6 +259,9 @@ def _variants(draft: Draft, bag: Features) -> Iterator[tuple[float, tuple[str, .
     if isinstance(angle, tuple) and dict(angle).get("n") == 180 and "side" not in dict(bag):
         turned = {name: value for name, value in bag if name != "angle"}
         yield -1.5, ("half turn",), features(turned | {"uturn": 1})
+    passing = draft.clauses[-1:] and getattr(draft.clauses[-1], "past", False)
+    if passing and len(bag) == 1 and bag[0][0].startswith("obj."):
+        yield 0.4, ("ellipsis:pass",), features(dict(bag) | {"V": "pass"})
     last = dict(draft.last)
     for slot, value in bag:
         own = dict(value) if isinstance(value, tuple) else {}
