@@ -33,6 +33,7 @@ MARKS = {
     "OTHERWISE": ("else", 0.0),
     "ANYCASE": ("any", 0.0),
     "OR": ("or", 0.1),
+    "FROMTHERE": ("from there", 0.1),
     "BEFORETHAT": ("before", 0.1),
     "AFTERDO": ("before", 0.4),
     "BEFOREDO": ("later", 0.4),
@@ -42,7 +43,7 @@ MARKS = {
 PROTECTED = frozenset(("ORD", "SIDE", "NUM", "NOT", "NO", "OR", "UNIT", "UNLESS", "ROOMNAME"))
 """Symbols of words that are no filler, though a phrase of fillers may have them."""
 
-FREE = ("HES", "SOFT", "FILL", "GREET", "ASIDE")
+FREE = ("HES", "SOFT", "FILL", "GREET", "ASIDE", "HANDOVER")
 """Symbols of phrases that may be left out as a whole."""
 
 NO_FRAME, NO_FRAME_FRAGMENT = 4.0, 2.0

@@ -15,7 +15,7 @@ import numpy as np
 from semnav_agents.translating.interpreter import understand as with_second_opinion
 from semnav_env.language.corpora import load_sentences, verdicts
 from semnav_env.language.parser import parse
-from studies.chart_reader.examples import Example, all_examples
+from studies.chart_reader.examples import SAMPLED, Example, all_examples, sampled_examples
 from studies.chart_reader.lexicon import TABLES
 from studies.chart_reader.measuring import OUTCOMES, Limits, chosen_limits, counted
 from studies.chart_reader.reading import understand_with_doubt
@@ -34,13 +34,15 @@ class Arguments:
         compare: measure today's grammar and the second opinion on the same sets; it is slow.
         write: write the weights that were learned from all development sets.
         doubt: measure the written weights with the learned translator as a second opinion on the
-            held-out authors, who are the only ones from whom it has not learned.
+            held-out authors, who are the only ones from whom it has not learned. Needs `write`.
+        sampled: sampled commands in each language from which the ranker learns, too.
     """
 
     held_out: bool = False
     compare: bool = False
     write: bool = False
     doubt: bool = False
+    sampled: int = 200
 
     def run(self) -> int:
         """Print a table by language."""
@@ -53,13 +55,13 @@ class Arguments:
     def _measure(self, name: str, code: str) -> None:
         files = [file for file in development_corpora() if name in file.stem]
         examples = list(all_examples([(file, code) for file in files]))
-        trainer = Trainer(examples)
+        trainer = Trainer([*examples, *sampled_examples(self.sampled, code)])
         chances = left_out_chances(trainer)
         limits = chosen_limits(examples, chances)
         title = f"chart, author left out, acts from {limits.act:g}"
         _print(name, "1 to 6", title, counted(examples, chances, limits))
         self._compare(name, "1 to 6", files)
-        learned = trainer.train(_unambiguous(examples))
+        learned = trainer.train(_unambiguous(trainer.examples))
         weights = {n: round(float(w), 3) for n, w in zip(trainer.names, learned, strict=True)}
         if self.write:
             text = json.dumps(weights, indent=0, ensure_ascii=False)
@@ -98,13 +100,13 @@ def left_out_chances(trainer: Trainer) -> list[np.ndarray]:
     """The probabilities of each example's candidates, learned from the other authors."""
     examples = trainer.examples
     found: dict[int, np.ndarray] = {}
-    for author in dict.fromkeys(each.author for each in examples):
+    for author in dict.fromkeys(e.author for e in examples if e.author != SAMPLED):
         known = [i for i in _unambiguous(examples) if examples[i].author != author]
         weights = trainer.train(known)
         for i, each in enumerate(examples):
             if each.author == author:
                 found[i] = trainer.probabilities(i, weights)
-    return [found[i] for i in range(len(examples))]
+    return [found[i] for i in range(len(found))]
 
 
 def _unambiguous(examples: Sequence[Example]) -> list[int]:

@@ -15,7 +15,7 @@ class Edited(NamedTuple):
 
     Attributes:
         cost: of the edits.
-        bags: those that are left; a mark "else" or "any" may stand between them.
+        bags: those that are left, with marks that they need ("else", "any", "from there").
         tags: of the edits.
         unsayable: whether no command says it.
         held: what comes behind the next bag.
@@ -40,7 +40,7 @@ def edited(entries: tuple[Entry, ...]) -> list[Edited]:
     mark, denied = "", None
     for entry in entries:
         if isinstance(entry, str):
-            if entry in ("else", "any"):
+            if entry in ("else", "any", "from there"):
                 found = [e._replace(bags=(*e.bags, entry)) for e in found]
             elif mark in ("", "but") or entry == "not":
                 mark = entry

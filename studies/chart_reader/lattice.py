@@ -82,6 +82,7 @@ class Lattice:
                 self._borrow(at)
         self._decimals()
         self._favour_long_spans()
+        self._favour_conditions()
         self.edges = [
             [Edge(stop, symbol, given, cost) for (stop, symbol, given), cost in found.items()]
             for found in self._found
@@ -203,6 +204,16 @@ class Lattice:
     def _numbers(self, at: int) -> list[tuple[int, float, float]]:
         found = self._found[at].items() if at < len(self.words) else ()
         return [(stop, given[0][1], c) for (stop, s, given), c in found if s == "NUM"]
+
+    def _favour_conditions(self) -> None:
+        """What begins with "if" is seldom anything but a condition."""
+        for found in self._found:
+            if any(symbol == "IF" for _, symbol, _ in found) and not any(
+                symbol == "WHEN" for _, symbol, _ in found
+            ):
+                for key in found:
+                    if key[1] in ("AT", "UNTIL", "AFTER", "PAST", "THEN"):
+                        found[key] += INSIDE_NAME
 
     def _favour_long_spans(self) -> None:
         """The words of a room's name or of a long preposition are seldom anything else."""

@@ -30,7 +30,7 @@ _FOLDED = {"’": "'", "‘": "'", "ä": "ae", "ö": "oe", "ü": "ue", "ß": "ss
 NOUNS = {"NDOOR", "NHALL", "NPLACE", "NTURN", "NEND", "NWALL", "NSTART"}
 """Symbols of nouns that may be the last part of a compound."""
 
-NEVER_MEANT = {"HES", "FILL", "SOFT", "ASIDE", "GREET", "BEYOND", "FINITE", "NAREA"}
+NEVER_MEANT = {"HES", "FILL", "SOFT", "ASIDE", "GREET", "HANDOVER", "BEYOND", "FINITE", "NAREA"}
 """Symbols of words to which no misspelt word is corrected."""
 
 MAX_COMPOUND_NUMBER = 360

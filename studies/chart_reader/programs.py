@@ -55,6 +55,7 @@ class Draft(NamedTuple):
         leads: whether the last clause leads to it.
         tags: of its frames.
         unsayable: whether some part of it is no clause.
+        anew: whether counting begins anew behind it ("from there").
     """
 
     cost: float
@@ -63,6 +64,7 @@ class Draft(NamedTuple):
     leads: bool
     tags: tuple[str, ...]
     unsayable: bool
+    anew: bool = False
 
     def tagged(self, *tags: str, cost: float = 0.0, **changes: Any) -> Draft:
         """The same with more tags, a higher cost and other changes."""
@@ -79,6 +81,7 @@ def programs(way: Edited) -> list[Draft]:
             otherwise = _next_bag(bags)
             grown = [each for d in drafts for each in _else_without_if(d, otherwise)]
         elif isinstance(bag, str):
+            drafts = [each._replace(anew=bag == "from there") for each in drafts]
             continue
         elif asked := _asked(bag):
             then = _next_bag(bags)
@@ -372,6 +375,7 @@ def _with_step(draft: Draft, step: str, bag: Features, returning: bool) -> Draft
         clauses=(*clauses, *before, clause),
         last=_seen_from_there(noun) if noun else draft.last,
         leads=bool(noun),
+        anew=False,
     )
 
 
@@ -461,7 +465,7 @@ def _past(reference: DoorReference | PlaceReference | RoomReference) -> Follow:
 
 def _counted_on(before: Draft, done: Draft) -> Iterator[Draft]:
     """A door or place that is counted from where the way to the one before it began."""
-    if not before.clauses or len(done.clauses) != len(before.clauses) + 1:
+    if before.anew or not before.clauses or len(done.clauses) != len(before.clauses) + 1:
         return
     passed, clause = before.clauses[-1], done.clauses[-1]
     first = passed.until if isinstance(passed, Follow) else getattr(passed, "at", None)

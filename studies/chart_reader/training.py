@@ -9,7 +9,7 @@ import numpy as np
 from scipy.optimize import minimize
 from scipy.sparse import csr_matrix
 
-from studies.chart_reader.examples import Example
+from studies.chart_reader.examples import SAMPLED, Example
 
 LEAST_OFTEN = 4
 """A feature counts if so many texts have it."""
@@ -19,6 +19,10 @@ PRIOR = {"cost": -2.0, "none": -5.0}
 
 DECAY, STEPS = 0.3, 100
 """Strength of the prior, and the most steps of the optimiser."""
+
+
+SAMPLED_SHARE = 0.3
+"""How much a sampled command counts beside what somebody wrote."""
 
 
 class Trainer:
@@ -53,6 +57,10 @@ class Trainer:
         lengths = np.array([stop - start for start, stop in spans])
         starts = np.concatenate([[0], np.cumsum(lengths)[:-1]])
         matrix, right = self._matrix[chosen], self._right[chosen]
+        shares = np.array(
+            [SAMPLED_SHARE if self.examples[i].author == SAMPLED else 1.0 for i in which]
+        )
+        of_rows = np.repeat(shares, lengths)
         transposed = matrix.T.tocsr()
 
         def loss(weights: np.ndarray) -> tuple[float, np.ndarray]:
@@ -62,8 +70,8 @@ class Trainer:
             good = np.maximum(np.add.reduceat(raised * right, starts), 1e-300)
             away = weights - self._prior
             slope = raised / np.repeat(every, lengths) - raised * right / np.repeat(good, lengths)
-            total = float(np.sum(np.log(every) - np.log(good)) + DECAY * away @ away)
-            return total, transposed @ slope + 2 * DECAY * away
+            total = float(shares @ (np.log(every) - np.log(good)) + DECAY * away @ away)
+            return total, transposed @ (of_rows * slope) + 2 * DECAY * away
 
         found = minimize(loss, self._prior, jac=True, method="L-BFGS-B", options={"maxiter": STEPS})
         weights: np.ndarray = found.x
