@@ -22,6 +22,7 @@ from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.world.dynamics.social import for_json
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_scripts.arguments import parse_pose
+from semnav_scripts.asking import asking
 from semnav_scripts.outputs import check_file
 from semnav_scripts.progress import tracked
 
@@ -66,7 +67,7 @@ class Arguments:
     carried out from its start.
 
     Attributes:
-        command: what to say to the robot.
+        command: what to say to the robot; in a terminal it asks what is left open.
         episode: instead of a command the id of a frozen episode, such as val_unseen-00246, or
             FILE:ID for one of a file; the same agent drives it as in `semnav evaluate`.
         map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path;
@@ -135,7 +136,7 @@ class Arguments:
         if self.command is None:
             raise ValueError("say what the robot is to do, or give --episode ID")
         plan = load_floor_plan(self.map or DEFAULT_MAP)
-        command = understand(self.command, self.language, plan.room_names)
+        command = understand(self.command, self.language, plan.room_names, asking())
         spoken = language_of_text(self.command, self.language)
         options: dict[str, Any] = {"command": command, "language": spoken.code}
         if self.pose is not None:

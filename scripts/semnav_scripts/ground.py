@@ -25,6 +25,7 @@ from semnav_env.robots import robot_spec
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.placement import placement_error
 from semnav_scripts.arguments import OptionalText, parse_pose
+from semnav_scripts.asking import asking
 
 TABLE_HEADINGS = f"{'goal':<6}{'x, m':>9}{'y, m':>9}{'heading, rad':>14}  clause"
 
@@ -102,14 +103,14 @@ def understood(text: str, language: str | None = None, rooms: tuple[str, ...] = 
         CommandError: the text is neither a command nor a place.
     """
     try:
-        return parse(text, language, rooms)
+        return parse(text, language, rooms, asking())
     except AmbiguousCommandError:
         raise
     except CommandError as error:
         if language not in (None, "en"):
             raise
         try:
-            return parse(f"go to {text}", language, rooms)
+            return parse(f"go to {text}", language, rooms, asking())
         except CommandError as place_error:
             further = (place_error.position or 0) - len("go to ") > (error.position or 0)
             raise place_error if further else error from None

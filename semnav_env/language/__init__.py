@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 from semnav_env.language.clauses import (
     Approach,
+    BackUp,
     Clause,
     Face,
     Follow,
@@ -37,7 +38,7 @@ from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_env.language.encoding import decode, encode
-    from semnav_env.language.errors import AmbiguousCommandError, CommandError
+    from semnav_env.language.errors import CommandError
     from semnav_env.language.interpreters import (
         GrammarInterpreter,
         Interpretation,
@@ -46,6 +47,7 @@ if TYPE_CHECKING:
     )
     from semnav_env.language.parser import correct, parse, readings
     from semnav_env.language.program import from_program, to_program
+    from semnav_env.language.question import AmbiguousCommandError, Ask, Question
     from semnav_env.language.rewording import paraphrases
     from semnav_env.language.sampling import sample_clause, sample_command
 
@@ -58,6 +60,8 @@ __all__ = [
     "OTHER",
     "AmbiguousCommandError",
     "Approach",
+    "Ask",
+    "BackUp",
     "Clause",
     "Command",
     "CommandError",
@@ -77,6 +81,7 @@ __all__ = [
     "OwnClause",
     "Place",
     "PlaceReference",
+    "Question",
     "RoomReference",
     "SearchHouse",
     "Side",
@@ -102,7 +107,7 @@ __getattr__ = lazy_names(
     __name__,
     {
         ".encoding": ("decode", "encode"),
-        ".errors": ("AmbiguousCommandError", "CommandError"),
+        ".errors": ("CommandError",),
         ".interpreters": (
             "GrammarInterpreter",
             "Interpretation",
@@ -111,6 +116,7 @@ __getattr__ = lazy_names(
         ),
         ".parser": ("correct", "parse", "readings"),
         ".program": ("from_program", "to_program"),
+        ".question": ("AmbiguousCommandError", "Ask", "Question"),
         ".rewording": ("paraphrases",),
         ".sampling": ("sample_clause", "sample_command"),
     },

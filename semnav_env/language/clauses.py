@@ -33,6 +33,9 @@ from semnav_features.validation import shown
 MAX_DEGREES, DEGREE_STEP = 360, 5
 """The largest turn by degrees, a full one, and the step of such turns, degrees."""
 
+MAX_BACKING_UP = 10.0
+"""How far a robot drives backwards at most, metres: few robots see behind them."""
+
 MAX_SECONDS = 100
 """The longest wait, seconds; the most that a token holds."""
 
@@ -217,6 +220,29 @@ class GoBack(Clause):
 
 
 @dataclass(frozen=True, slots=True)
+class BackUp(Clause):
+    """Drive backwards without turning: "back up for 2 metres".
+
+    Attributes:
+        distance: how far, at most `MAX_BACKING_UP` metres.
+    """
+
+    distance: Distance
+    forms: ClassVar[tuple[Form, ...]] = (
+        form(
+            *("back_up", "", "back up {distance}", (TokenVerb.GO_BACK,)),
+            distance=Distance,
+            sampled=False,
+        ),
+    )
+
+    def __post_init__(self) -> None:
+        if self.distance.metres > MAX_BACKING_UP:
+            most = f"a robot backs up at most {MAX_BACKING_UP:g} metres"
+            raise ValueError(f"{most}, not {self.distance}; turn around first")
+
+
+@dataclass(frozen=True, slots=True)
 class SearchHouse(Clause):
     """Look into every room and report every person that is found: "search the house".
 
@@ -306,7 +332,8 @@ class IfThere(Clause):
 CLAUSE_KINDS: dict[str, type[Clause]] = {
     kind.__name__: kind
     for kind in (
-        *(Follow, Turn, GoToDoor, GoToRoom, Leave, GoBack, SearchHouse, Stop, Face, IfThere),
+        *(Follow, Turn, GoToDoor, GoToRoom, Leave, GoBack, BackUp),
+        *(SearchHouse, Stop, Face, IfThere),
     )
 }
 """The clauses of this package by their names."""

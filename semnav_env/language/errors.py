@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import unicodedata
-from typing import Any
 
 CONTEXT_BEFORE, CONTEXT_AFTER = 48, 24
 """How much of a long text an error shows before and after the fault, characters; together with the
@@ -65,60 +64,6 @@ class CommandError(ValueError):
         if self.position is None:
             return self.summary
         return f"{self.summary}\n{with_caret(self.text, self.position, self.length)}"
-
-
-MOST_SHOWN = 8
-"""The most readings that a question shows."""
-
-
-class AmbiguousCommandError(CommandError):
-    """A text that can mean several commands, or one that is doubtful.
-
-    It is doubtful if a word is misspelt, or was left out because it is not understood.
-
-    Attributes:
-        readings: these commands, the likelier first.
-        differences: for each reading the clauses in which it differs, in the text's language.
-        unread: words that were left out because they are not understood.
-        later: whether these begin later than the text, behind what is clear.
-    """
-
-    def __init__(
-        self,
-        text: str,
-        readings: tuple[Any, ...],
-        differences: tuple[str, ...],
-        suggestion: str | None = None,
-        unread: str = "",
-        later: bool = False,
-    ) -> None:
-        shown = differences[:MOST_SHOWN]
-        ways = " or ".join(_quoted(("... " if later else "") + each) for each in shown)
-        if len(shown) < len(differences):
-            ways += f" or one of {len(differences) - len(shown)} others"
-        if suggestion:
-            super().__init__(f"did you mean {ways}?", text, hint=f"corrected: {suggestion}")
-        elif unread:
-            problem = f'"{unread}" is not understood: did you mean {ways}?'
-            super().__init__(problem, text, hint="say it without that")
-        else:
-            super().__init__(f"this can mean {ways}", text, hint="say which")
-        self.args = (text, readings, differences, suggestion, unread, later)
-        self.suggestion = suggestion
-        self.unread = unread
-        self.readings = readings
-        self.differences = differences
-        self.later = later
-
-    @property
-    def summary(self) -> str:
-        """The question and advice in one line."""
-        return "; ".join(part for part in (self.problem, self.hint) if part)
-
-
-def _quoted(text: str) -> str:
-    """A text in quotation marks, in single ones if it has double ones itself."""
-    return f"'{text}'" if '"' in text else f'"{text}"'
 
 
 def listed(words: tuple[str, ...]) -> str:

@@ -12,12 +12,11 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from semnav_env.language.command import Command
-from semnav_env.language.defaults import decided
-from semnav_env.language.errors import AmbiguousCommandError, CommandError
+from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
 from semnav_env.language.normalise import normalise
-from semnav_env.language.parser import check_rooms, differences, readings
+from semnav_env.language.parser import check_rooms, only_one, readings
 from semnav_env.language.program import from_program
 
 
@@ -46,12 +45,7 @@ class Interpretation:
         Raises:
             AmbiguousCommandError: there are several.
         """
-        found = decided(self.readings)
-        command, *others = found
-        if others:
-            apart = differences(found, self.language)
-            raise AmbiguousCommandError(self.text, found, apart)
-        return command
+        return only_one(self.readings, self.text, self.language, ())
 
     @property
     def echo(self) -> str:

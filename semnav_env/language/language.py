@@ -29,6 +29,8 @@ class Language:
         same_as: characters that are read as others.
         hints: advice for words that people often try and that are not understood.
         phrases: format strings that put commands in words; "door:to" is a form of "door".
+        answers: what people answer to a question: words for yes and no, for the first and the
+            second of two choices, for sides and approaches, and words that may stand beside.
         wordings: other format strings for these phrases; those of "1" are other words for the
             first, and those of "command" frame a whole command.
     """
@@ -44,6 +46,7 @@ class Language:
     same_as: dict[str, str]
     hints: dict[str, str]
     phrases: dict[str, str]
+    answers: dict[str, tuple[str, ...]]
     wordings: dict[str, tuple[str, ...]]
 
     def folded(self, words: str) -> str:

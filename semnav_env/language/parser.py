@@ -4,15 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from semnav_env.language.clauses import Stop
 from semnav_env.language.command import Command, room_of
 from semnav_env.language.defaults import decided
-from semnav_env.language.errors import AmbiguousCommandError, CommandError
+from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
-from semnav_env.language.languages import english, language_of
+from semnav_env.language.languages import language_of
+from semnav_env.language.question import AmbiguousCommandError, Ask, Question, ask_until_clear
 from semnav_env.language.rooms import plain_name
+from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
+
+STOP_AT_ONCE = (Command((Stop(),)),)
+"""The one reading of a call to stop."""
 
 
-def parse(text: str, language: str | Language | None = None, rooms: Sequence[str] = ()) -> Command:
+def parse(
+    text: str,
+    language: str | Language | None = None,
+    rooms: Sequence[str] = (),
+    ask: Ask | None = None,
+) -> Command:
     """The command that a text means.
 
     Args:
@@ -21,6 +32,8 @@ def parse(text: str, language: str | Language | None = None, rooms: Sequence[str
         language: "en", "de" or a `Language`; by default it is recognised.
         rooms: the names of the rooms that there are; empty if they are not known. If given, only
             these are understood, and they need no quotation marks.
+        ask: asks a person what is meant where the text leaves it open, such as `input`. Without it
+            that is an error.
 
     Returns:
         The command; `parse(command.say(language), language) == command`.
@@ -30,14 +43,31 @@ def parse(text: str, language: str | Language | None = None, rooms: Sequence[str
         AmbiguousCommandError: it can mean several commands, which are `error.readings`.
         ValueError: there is no such language.
     """
-    found = decided(readings(text, language, rooms))
-    command, *others = found
-    if others:
-        spoken = english() if language is None else language_of(language)
-        apart = differences(found, spoken)
-        later = not command.say(spoken).startswith(apart[0])
-        raise AmbiguousCommandError(_beginning(text), found, apart, later=later)
-    return command
+    try:
+        return only_one(readings(text, language, rooms), text, language, rooms)
+    except AmbiguousCommandError as error:
+        if ask is None:
+            raise
+        return ask_until_clear(error, ask)
+
+
+def only_one(
+    found: Sequence[Command], text: str, language: str | Language | None, rooms: Sequence[str]
+) -> Command:
+    """The one reading of a text, with what goes without saying; see `defaults`.
+
+    Raises:
+        AmbiguousCommandError: there are several.
+    """
+    found = decided(found)
+    if len(found) == 1:
+        return found[0]
+    if begins_or_ends_with_stop(text):
+        return STOP_AT_ONCE[0]
+    from semnav_env.language.speech.recognition import language_of_text  # large, too
+
+    spoken = language_of_text(text, language)
+    raise AmbiguousCommandError(text, Question(found, spoken, rooms))
 
 
 def correct(command: Command, text: str, language: str | Language = "en") -> Command:
@@ -56,36 +86,18 @@ def readings(
 
     What goes without saying (`defaults`) is not decided here.
     """
+    if isinstance(text, str) and is_stop(text):
+        return STOP_AT_ONCE
     from semnav_env.language.spoken_text import readings_of_text  # here, as it is large
 
-    found = readings_of_text(text, None if language is None else language_of(language), rooms)
-    check_rooms(found[0], text, rooms)
-    return found
-
-
-def differences(commands: Sequence[Command], language: Language) -> tuple[str, ...]:
-    """For each command, in words, the clauses in which it differs from the others."""
-    texts = [[clause.say(language) for clause in command.clauses] for command in commands]
-    shortest = min(map(len, texts))
-    same = next((i for i in range(shortest) if len({t[i] for t in texts}) > 1), shortest - 1)
-    tails = [command.clauses[same:] for command in commands]
-    alike = 0
-    while min(map(len, tails)) > alike + 1 and len({tail[-1 - alike] for tail in tails}) == 1:
-        alike += 1
-    return tuple(
-        _distinct(command, same, len(command.clauses) - alike).say(language) for command in commands
-    )
-
-
-def _distinct(command: Command, start: int, stop: int) -> Command:
-    """The clauses from `start` to `stop`; a single one with the clause from which it counts.
-
-    The whole command where these alone are none, such as a condition without what depends on it.
-    """
     try:
-        return Command(command.clauses[max(0, start - 1) if start == stop - 1 else start : stop])
-    except ValueError:
-        return command
+        found = readings_of_text(text, None if language is None else language_of(language), rooms)
+        check_rooms(found[0], text, rooms)
+    except CommandError:
+        if isinstance(text, str) and begins_or_ends_with_stop(text):
+            return STOP_AT_ONCE
+        raise
+    return found
 
 
 def check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:

@@ -7,10 +7,10 @@ from collections.abc import Mapping, Sequence
 from semnav_env.language.clauses import Stop
 from semnav_env.language.command import Command
 from semnav_env.language.defaults import decided
-from semnav_env.language.errors import AmbiguousCommandError
 from semnav_env.language.language import Language
 from semnav_env.language.languages import english
 from semnav_env.language.normalise import empty_command, normalise
+from semnav_env.language.question import AmbiguousCommandError, Question
 from semnav_env.language.repeats import told_once
 from semnav_env.language.speech.items import ItemKind
 from semnav_env.language.speech.lexicon import (
@@ -105,8 +105,10 @@ def _without_slips(
     if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return None
     right = ", ".join(dict.fromkeys(corrected[1].values()))
-    ways = tuple(command.say(lexicon.language) for command in meant)
-    raise AmbiguousCommandError(text[:200], meant, ways, suggestion=right)
+    question = Question(
+        meant, lexicon.language, tuple(dict.fromkeys(names.values())), misspelt=right
+    )
+    raise AmbiguousCommandError(text, question)
 
 
 def _ask_without_unread(
@@ -128,6 +130,12 @@ def _ask_without_unread(
     unread = next((i for i in understood.items if i.kind is ItemKind.UNKNOWN), None)
     if unread is None:
         unread = understood.items[min(understood.reached, len(understood.items) - 1)]
-    ways = tuple(command.say(lexicon.language) for command in meant)
     unread_words = " ".join(words[unread.start : unread.stop])
-    raise AmbiguousCommandError(text[:200], meant, ways, unread=unread_words)
+    question = Question(
+        meant, lexicon.language, tuple(dict.fromkeys(names.values())), unread=unread_words
+    )
+    raise AmbiguousCommandError(text, question)
+
+
+def _rooms(names: Mapping[tuple[str, ...], str]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(names.values()))

@@ -15,10 +15,11 @@ from semnav_env.language.corpora import ParseOutcome, Sentence
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.corpora.measure import rooms_in
 from semnav_env.language.defaults import decided
-from semnav_env.language.errors import AmbiguousCommandError, CommandError
+from semnav_env.language.errors import CommandError
 from semnav_env.language.interpreters import Interpretation, Interpreter
 from semnav_env.language.languages import english
 from semnav_env.language.parser import readings
+from semnav_env.language.question import AmbiguousCommandError
 
 
 @dataclass(frozen=True)

@@ -24,17 +24,14 @@ ROOMS = ("lab", "office", "kitchen")
     ],
 )
 def test_driving_backwards_by_a_distance_is_never_done_forwards(text: str) -> None:
-    with pytest.raises(CommandError) as caught:
-        parse(text, None, ROOMS)
-    assert not isinstance(caught.value, AmbiguousCommandError)
+    assert str(parse(text, None, ROOMS)).startswith("back up for ")
 
 
 def test_to_reverse_alone_or_before_going_on_is_to_turn_around() -> None:
     assert str(parse("reverse")) == "turn around"
     turned = "turn around and go down the hallway for 2 metres"
     assert str(parse("reverse, then go two metres")) == turned
-    with pytest.raises(CommandError, match="driving backwards is not understood: turn around"):
-        parse("reverse two metres")
+    assert str(parse("reverse two metres")) == "back up for 2 metres"
 
 
 def test_doors_that_are_passed_on_both_sides_may_be_counted_on_one() -> None:
@@ -91,11 +88,11 @@ def test_the_carets_are_under_a_room_that_there_is_not(
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("go to the kitchn", "did you mean 'go to room \"kitchen\"'?; corrected: kitchen"),
-        ("go thruogh the second door on the rigth", "corrected: through, right"),
+        ("go to the kitchn", 'Did you mean "kitchen"? (\'go to room "kitchen"\')'),
+        ("go thruogh the second door on the rigth", 'Did you mean "through, right"?'),
         (
             "take a left, then a right, then turn 45 degrees",
-            'mean "... turn right and turn left by',
+            'Left, or right? ("turn left by 45 degrees" / "turn right by 45 degrees")',
         ),
         ("turn left in 5 metres", "in what distance? first say how far to go"),
         ("go down the hallway for 100 metres", "a distance is 0.5 to 50 metres"),

@@ -86,7 +86,7 @@ def test_a_remark_is_left_out_with_a_question(text: str, meant: str) -> None:
     with pytest.raises(AmbiguousCommandError) as caught:
         parse(text, None, ROOMS)
     assert [str(command) for command in caught.value.readings] == [meant]
-    assert caught.value.unread
+    assert caught.value.question.unread
 
 
 @pytest.mark.parametrize(

@@ -13,11 +13,12 @@ from semnav_env.language.clauses import GoToDoor, Stop
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.defaults import decided
-from semnav_env.language.errors import AmbiguousCommandError, CommandError
+from semnav_env.language.errors import CommandError
 from semnav_env.language.interpreters import Interpretation
 from semnav_env.language.language import Language
 from semnav_env.language.normalise import normalise
-from semnav_env.language.parser import check_rooms, differences, readings
+from semnav_env.language.parser import check_rooms, readings
+from semnav_env.language.question import AmbiguousCommandError, Ask, Question, ask_until_clear
 from semnav_env.language.speech.recognition import language_of_text
 from semnav_env.language.speech.understanding import QUESTION
 
@@ -47,27 +48,6 @@ class DoubtLimits:
     choices: int = 3
 
 
-class TranslationQuestionError(AmbiguousCommandError):
-    """A text that the grammar refuses or doubts, and what a network takes it for.
-
-    Attributes:
-        likeness: probability of the first reading as the network sees it, 0 to 1.
-    """
-
-    def __init__(
-        self, text: str, found: tuple[Command, ...], said: tuple[str, ...], likeness: float
-    ) -> None:
-        super().__init__(text, found, said)
-        self.problem = f"did you mean {' or '.join(map(_quoted, said))}?"
-        self.hint = "say that, or say it in other words"
-        self.args = (text, found, said, likeness)
-        self.likeness = likeness
-
-
-def _quoted(text: str) -> str:
-    return f"'{text}'" if '"' in text else f'"{text}"'
-
-
 @dataclass(frozen=True)
 class LearnedInterpreter:
     """The grammar with a learned translator as a second opinion.
@@ -92,8 +72,8 @@ class LearnedInterpreter:
         """The reading that the grammar finds.
 
         Raises:
-            TranslationQuestionError: the text is refused or doubtful, and some command is likely.
-            AmbiguousCommandError: the grammar asks.
+            AmbiguousCommandError: the grammar asks, or the text is refused or doubtful and some
+                command is likely.
             CommandError: the text is refused; it is the error of the grammar.
         """
         try:
@@ -139,31 +119,26 @@ class LearnedInterpreter:
         known = [n for each in every if (n := translated.likeness_of(each)) is not None]
         if not known and translated.has_sides_of(command):
             return None  # such as a search, for which there are no symbols
-        likeness = sum(known)
-        if likeness >= self.limits.acting:
+        if sum(known) >= self.limits.acting:
             return None
         others = self._others(text, every, self.limits.choices - 1)
-        found = (command, *others)
-        spoken = self._spoken(text)
-        said = differences(found, spoken) if others else (command.say(spoken),)
-        return TranslationQuestionError(text[:200], found, said, likeness)
+        return self._asked(text, (command, *others))
 
     def _refusal(self, text: str, error: AmbiguousCommandError) -> CommandError | None:
         """The refusal of a text with words left out that the translator takes for no command."""
-        translated = self._translated(text) if error.unread else None
+        translated = self._translated(text) if error.question.unread else None
         if translated is None or translated.refusal <= self.limits.refusing:
             return None
-        return CommandError(f'"{error.unread}" is not understood', text[:200])
+        return CommandError(f'"{error.question.unread}" is not understood', text[:200])
 
     def _wider(self, text: str, error: AmbiguousCommandError) -> AmbiguousCommandError | None:
         """A question with what the translator takes a text for beside the grammar's readings."""
         others = self._others(text, error.readings, 1)
         if not others:
             return None
-        found, spoken = (*error.readings, *others), self._spoken(text)
-        return TranslationQuestionError(text[:200], found, differences(found, spoken), 0.0)
+        return self._asked(text, (*error.readings, *others))
 
-    def _question(self, text: str) -> TranslationQuestionError | None:
+    def _question(self, text: str) -> AmbiguousCommandError | None:
         """What to ask about a text that the grammar refuses; None if nothing."""
         translated = self._translated(text)
         if translated is None or translated.refusal > self.limits.refusing:
@@ -176,9 +151,10 @@ class LearnedInterpreter:
         likely = likely[: self.limits.choices]
         if not likely:
             return None
-        found, spoken = tuple(each.command for each in likely), self._spoken(text)
-        said = tuple(command.say(spoken) for command in found)
-        return TranslationQuestionError(text[:200], found, said, likely[0].likeness)
+        return self._asked(text, tuple(each.command for each in likely))
+
+    def _asked(self, text: str, found: tuple[Command, ...]) -> AmbiguousCommandError:
+        return AmbiguousCommandError(text, Question(found, self._spoken(text), self.rooms))
 
     def _others(self, text: str, known: Sequence[Command], count: int) -> tuple[Command, ...]:
         """The likeliest commands besides those that are known."""
@@ -216,14 +192,23 @@ class LearnedInterpreter:
         return language_of_text(text, self.language)
 
 
-def understand(text: str, language: str | None = None, rooms: Sequence[str] = ()) -> Command:
+def understand(
+    text: str, language: str | None = None, rooms: Sequence[str] = (), ask: Ask | None = None
+) -> Command:
     """The command that a text means, by the grammar and the translator, see `LearnedInterpreter`.
+
+    The arguments are those of `semnav_env.language.parse`.
 
     Raises:
         AmbiguousCommandError: it is doubtful; `error.readings` are what it may mean.
         CommandError: it is not understood.
     """
-    return LearnedInterpreter(language, rooms).interpret(text).command
+    try:
+        return LearnedInterpreter(language, rooms).interpret(text).command
+    except AmbiguousCommandError as error:
+        if ask is None:
+            raise
+        return ask_until_clear(error, ask)
 
 
 def _meaning(command: Command) -> object:

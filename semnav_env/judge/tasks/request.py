@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import semnav_env.language
-from semnav_env.language import Command
+from semnav_env.language import Ask, Command
 from semnav_env.robots import RobotSpec
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.simulator.odometry import OdometrySettings
@@ -30,6 +30,7 @@ class EpisodeRequest:
     Attributes:
         command: text or `Command`.
         language: of the text; None to recognise it.
+        ask: asks a person what is meant where the text leaves it open, such as `input`.
         implicit_steps: whether to do what goes without saying, such as leaving the room first.
         pose: start of the robot's centre (x, y, heading), world frame.
         floor_plan: a bundled name, a path or a `FloorPlan`.
@@ -45,6 +46,7 @@ class EpisodeRequest:
 
     command: str | Command | None = None
     language: str | None = None
+    ask: Ask | None = None
     implicit_steps: bool = True
     pose: Any = None
     floor_plan: str | Path | FloorPlan | None = None
@@ -74,6 +76,8 @@ class EpisodeRequest:
                 raise ValueError(f"an episode has its own {part}; leave {part!r} out")
         asked = {name: value for name, value in given.items() if value is not None}
         steps = asked.get("implicit_steps", True)
+        ask = asked.get("ask")
+        require(ask is None or callable(ask), "ask", ask, "a function from a question to an answer")
         require(isinstance(steps, bool), "implicit_steps", steps, "True or False")
         return cls(**asked) if given else None
 
@@ -107,7 +111,7 @@ class EpisodeRequest:
         if given is None or isinstance(given, Command):
             return given
         if isinstance(given, str):
-            return semnav_env.language.parse(given, language, rooms)
+            return semnav_env.language.parse(given, language, rooms, self.ask)
         raise ValueError(f"a command is text or a Command, not {type(given).__name__}")
 
     def checked_pose(self) -> Pose | None:

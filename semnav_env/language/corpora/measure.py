@@ -11,8 +11,9 @@ from typing import TypeAlias
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.corpora.sentences import Sentence
-from semnav_env.language.errors import AmbiguousCommandError, CommandError
+from semnav_env.language.errors import CommandError
 from semnav_env.language.parser import parse
+from semnav_env.language.question import AmbiguousCommandError
 
 Understand: TypeAlias = Callable[[str, str | None, Sequence[str]], Command]
 """What takes a text for a command, given a language or None and the rooms; like `parse`."""

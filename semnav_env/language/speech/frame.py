@@ -49,7 +49,7 @@ KNOWN_VERBS = frozenset(
             "find",
         ),
         *("leave", "exit", "return", "back", "stop", "wait", "face", "wall", "keep", "in", "out"),
-        *("along", "past", "reach", "away", "count", "let", "search"),
+        *("along", "past", "reach", "away", "count", "let", "search", "reverse"),
     }
 )
 

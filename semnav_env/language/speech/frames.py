@@ -15,6 +15,7 @@ from semnav_env.language.clause_readings import (
 )
 from semnav_env.language.clauses import (
     Approach,
+    BackUp,
     Face,
     GoToDoor,
     SearchHouse,
@@ -66,6 +67,7 @@ def readings_of(frame: ClauseFrame) -> Readings:
     frame = with_places_of_doors(frame)
     for read in (
         _search,
+        _reverse,
         read_degrees,
         read_wait,
         read_stop,
@@ -110,6 +112,18 @@ def _check_all_is_read(frame: ClauseFrame, reader: str) -> None:
     unread = [item.kind for item in frame.items if item.kind in LEFT_UNREAD.get(reader, ())]
     if unread and "away" not in frame.verbs:
         raise NoMeaningError(f"{unread[0]} is not read")
+
+
+def _reverse(frame: ClauseFrame) -> Readings | None:
+    """Of "reverse two metres" and "go two metres backwards"."""
+    if "reverse" not in frame.verbs:
+        return None
+    distances = frame.of(ItemKind.DISTANCE)
+    known = (ItemKind.VERB, ItemKind.DISTANCE, ItemKind.STRAIGHT, ItemKind.BACK)
+    has_more = any(item.kind not in known for item in frame.items)
+    if len(distances) != 1 or has_more or frame.verbs - {"reverse", "go", "continue", "back"}:
+        raise NoMeaningError("backwards and something else")
+    return ((BackUp(distances[0].value),),)
 
 
 _FACED = ("named", "wall", "intersection", "corner", "t_junction", "end")

@@ -78,6 +78,7 @@ class ReachGoal(BaseGoal):
         offset_tolerance: where it is not None, `distance_tolerance` counts along the pose's heading
             only, and this one across it, metres: at the end of a known way, where odometry may
             have drifted.
+        backwards: it is driven to backwards, without a turn.
     """
 
     kind: ClassVar[GoalKind] = GoalKind.REACH
@@ -88,6 +89,7 @@ class ReachGoal(BaseGoal):
     junction: Junction | None = field(default=None, compare=False, repr=False)
     beside: Door | None = field(default=None, compare=False, repr=False)
     offset_tolerance: float | None = field(default=None, compare=False, repr=False)
+    backwards: bool = field(default=False, compare=False, repr=False)
 
     @property
     def fixes_heading(self) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from semnav_env.language.clauses import (
+    BackUp,
     Clause,
     Face,
     Follow,
@@ -89,6 +90,10 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
             return leave_goal(situation)
         case GoToRoom() | GoBack():
             return way_goal(clause, situation)
+        case BackUp():
+            from semnav_env.mind.grounding.backing_up import backing_up_goal  # here, as it is rare
+
+            return backing_up_goal(clause, situation)
         case IfThere():
             raise GroundingError(f"{clause}: a condition leads nowhere by itself")
         case SearchHouse():

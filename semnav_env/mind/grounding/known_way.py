@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from semnav_env.mind.grounding.goal import Goal, PassGoal, SeekGoal
+from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
 from semnav_env.rules import GroundingRules
 from semnav_features.frames import Point, Pose, to_local, to_parent, wrap_angle
 
 
 def next_on_way(goal: Goal, pose: Pose, rules: GroundingRules) -> Goal:
     """What a robot at a pose should head for: the goal, or the next place on a long known way."""
-    if not goal.places:
+    if not goal.places or (isinstance(goal, ReachGoal) and goal.backwards):
         return goal
     apart = [math.dist(place, pose[:2]) for place in goal.places]
     here = apart.index(min(apart))

@@ -1,0 +1,207 @@
+"""A question of the robot: what is open between the readings of a text, and what settles it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, TypeAlias
+
+from semnav_env.language.clauses import Approach, Clause, Turning
+from semnav_env.language.command import Command
+from semnav_env.language.declarations import Spoken, field_names, is_ordinal
+from semnav_env.language.errors import CommandError
+from semnav_env.language.language import Language
+from semnav_env.language.references import Side
+
+Ask: TypeAlias = Callable[[str], str]
+"""Asks a person a question and returns the answer, like `input`."""
+
+MOST_WORDS = 12
+"""The longest question in which two choices are named, words."""
+
+MOST_QUESTIONS = 5
+"""How often a person is asked about one text."""
+
+SAID_ALONE = (Approach, Side, Turning)
+"""What is said without the clause or the door that it belongs to: "left, or right?"."""
+
+SHOWN = 200
+"""How much of a long text an error keeps, characters."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """What a robot asks about a text, in the language of the speaker.
+
+    Attributes:
+        readings: the commands that the text can mean, the likelier first. One alone is doubtful.
+        language: of the speaker.
+        rooms: names of the rooms that there are; none if they are not known.
+        misspelt: words that a slip of the pen was taken for; empty if there is none.
+        unread: words that were left out because they are not understood; empty if there are none.
+    """
+
+    readings: tuple[Command, ...]
+    language: Language = field(repr=False)
+    rooms: Sequence[str] = ()
+    misspelt: str = ""
+    unread: str = ""
+
+    @cached_property
+    def text(self) -> str:
+        """What is asked, such as "Through it, or only up to it?"."""
+        say = self.language.say
+        if self.offers_choice:
+            asked = self._of_two
+        elif self.misspelt and len(self.readings) == 1:
+            asked = say("question_misspelt", word=self.misspelt)
+        elif self.unread and len(self.readings) == 1:
+            asked = say("question_unread", word=self.unread)
+        else:
+            asked = say("question_one", choice=self.choices[0])
+        return asked[0].upper() + asked[1:]
+
+    @cached_property
+    def offers_choice(self) -> bool:
+        """Whether both choices are named; where that takes long, only the likelier one is."""
+        return len(self.choices) == 2 and len(self._of_two.split()) <= MOST_WORDS
+
+    @property
+    def _of_two(self) -> str:
+        first, second = self.choices
+        return self.language.say("question_two", first=first, second=second)
+
+    @cached_property
+    def choices(self) -> tuple[str, ...]:
+        """In a few words what the two likeliest readings differ in, or what the only one is."""
+        said = [self._said(part) for part in self.open_parts]
+        alike = len(set(said)) < len(said)
+        return tuple(tail.say(self.language) for tail in self._tails) if alike else tuple(said)
+
+    @cached_property
+    def open_parts(self) -> tuple[Any, ...]:
+        """What the two likeliest readings differ in: clauses, references, sides, ordinals, ...."""
+        parts: tuple[Any, ...] = self._tails
+        if len(parts) == 2 and all(len(tail.clauses) == 1 for tail in parts):
+            parts = _open_parts(*(tail.clauses[0] for tail in parts))
+        return parts
+
+    @property
+    def _tails(self) -> tuple[Command, ...]:
+        return unlike(self.readings[:2])
+
+    def _said(self, part: Any) -> str:
+        """A part in the words of the speaker's language."""
+        if isinstance(part, Command):
+            return self.language.say("and").join(self._said(clause) for clause in part.clauses)
+        if isinstance(part, Approach):
+            return self.language.say(f"choice_{part}")
+        if is_ordinal(part):
+            return self.language.say("choice_ordinal", ordinal=self.language.ordinal(part))
+        if isinstance(part, Clause):
+            return part.say(self.language, "short")
+        said: str = part.say(self.language) if isinstance(part, Spoken) else self.language.say(part)
+        return said
+
+    def answer(self, text: str) -> Command:
+        """The command that a text means, given an answer such as "the left one" or a whole command.
+
+        Raises:
+            AmbiguousCommandError: it is still open; the question is that of the error.
+            CommandError: no reading is meant: "no" to the only one.
+        """
+        from semnav_env.language.answers import answered  # answers need what reads whole texts
+
+        return answered(self, text)
+
+
+class AmbiguousCommandError(CommandError):
+    """A text that can mean several commands, or one that is doubtful.
+
+    Attributes:
+        question: what is open, and how it is settled.
+    """
+
+    def __init__(self, text: str, question: Question) -> None:
+        apart = differences(question.readings, question.language)
+        shown = " / ".join(f"'{each}'" if '"' in each else f'"{each}"' for each in apart)
+        super().__init__(f"{question.text} ({shown})", text[:SHOWN])
+        self.args = (text, question)
+        self.question = question
+        self.suggestion = question.misspelt or None
+
+    @property
+    def summary(self) -> str:
+        """The question, with its choices in canonical words."""
+        return self.problem
+
+    @property
+    def readings(self) -> tuple[Command, ...]:
+        """The commands that the text can mean, the likelier first."""
+        return self.question.readings
+
+    @property
+    def differences(self) -> tuple[str, ...]:
+        """For each reading the clauses in which it differs, in the speaker's language."""
+        return differences(self.question.readings, self.question.language)
+
+
+def ask_until_clear(error: AmbiguousCommandError, ask: Ask) -> Command:
+    """The command that a person means who is asked, at most `MOST_QUESTIONS` times.
+
+    Raises:
+        AmbiguousCommandError: it is still open then.
+        CommandError: no reading is meant.
+    """
+    for _ in range(MOST_QUESTIONS):
+        try:
+            return error.question.answer(ask(error.question.text))
+        except AmbiguousCommandError as still_open:
+            error = still_open
+    raise error
+
+
+def differences(commands: Sequence[Command], language: Language) -> tuple[str, ...]:
+    """For each command, in words, the clauses in which it differs from the others."""
+    return tuple(tail.say(language) for tail in unlike(commands))
+
+
+def unlike(commands: Sequence[Command]) -> tuple[Command, ...]:
+    """For each command the clauses in which it differs from the others; a single one as it is.
+
+    Clauses that stand for nothing without their neighbours, such as a condition, come with these.
+    """
+    if len(commands) < 2:
+        return tuple(commands)
+    told = [command.clauses for command in commands]
+    shortest = min(map(len, told))
+    head = next((i for i in range(shortest) if len({each[i] for each in told}) > 1), shortest - 1)
+    tails = [each[head:] for each in told]
+    alike = 0
+    while min(map(len, tails)) > alike + 1 and len({tail[-1 - alike] for tail in tails}) == 1:
+        alike += 1
+    return tuple(_part(command, head, len(command.clauses) - alike) for command in commands)
+
+
+def _part(command: Command, start: int, stop: int) -> Command:
+    """The clauses from `start` to `stop`, or the whole command where these alone are none."""
+    try:
+        return Command(command.clauses[start:stop])
+    except ValueError:
+        return command
+
+
+def _open_parts(first: Any, second: Any) -> tuple[Any, Any]:
+    """The parts in which two values differ: their only different field, or they themselves."""
+    if type(first) is not type(second):
+        return first, second
+    names = field_names(type(first))
+    apart = [name for name in names if getattr(first, name) != getattr(second, name)]
+    if len(apart) != 1:
+        return first, second
+    parts = getattr(first, apart[0]), getattr(second, apart[0])
+    if all(isinstance(part, Spoken) for part in parts):
+        return _open_parts(*parts)
+    by_itself = apart[0] == "ordinal" or all(isinstance(p, SAID_ALONE) for p in parts)
+    return parts if by_itself else (first, second)

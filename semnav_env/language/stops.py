@@ -1,0 +1,92 @@
+"""Hears a call to stop: in every language at once, before anything else is read.
+
+A robot must not ask back, or look for a language, while somebody calls. So this is a fixed list.
+"""
+
+from __future__ import annotations
+
+import re
+
+from semnav_env.language.phrase_table import PhraseTable, Words, plain_words
+
+URGENT = (
+    "emergency stop|emergency halt|emergency brake|e-stop|e stop|estop|stop stop|halt stop|whoa|"
+    "notstopp|not-stopp|notstop|not-stop|nothalt|not-halt|notaus|not-aus|notbremse|notbremsung|"
+    "stopp stopp|halt stopp|halt halt"
+)
+"""Calls that are no part of a route: a text that begins or ends with one is a stop."""
+
+LONGEST_URGENT = 2
+"""The most words of an urgent call."""
+
+CALLS = (
+    "stop|stop it|stop now|stop here|stop moving|stop right now|stop at once|stop immediately|halt|"
+    "freeze|don't move|do not move|that's enough|that is enough|that'll do|that will do|whoa there|"
+    "watch out|look out|stopp|halt an|halte an|halten sie an|anhalten|sofort anhalten|"
+    "bleib stehen|bleiben sie stehen|stehen bleiben|stehenbleiben|hör auf|höre auf|hören sie auf|"
+    "aufhören|das reicht|es reicht|das genügt|nicht bewegen|vorsicht|achtung"
+)
+"""Calls that may also begin or end a route: "stop, turn left". These are a stop where they stand
+alone, and where the rest is not understood."""
+
+BESIDE = (
+    "please|now|no|nope|ok|okay|hey|oh|ah|uh|um|right|immediately|at once|robot|spot|wheelchair|"
+    "bitte|jetzt|nein|sofort|mal|doch|ach|äh|ähm|roboter|rollstuhl|einfach|i said|ich sagte"
+)
+"""What may stand beside a call."""
+
+
+_BREAK = re.compile(r"[,;:.!?\n\u2013\u2014\u2026]+")
+
+
+_TABLE = PhraseTable(
+    {"call": CALLS.split("|"), "urgent": URGENT.split("|"), "beside": BESIDE.split("|")}
+)
+
+
+def is_stop(text: str) -> bool:
+    """Whether a text is a call to stop, however the rest of it reads.
+
+    It is one if it says nothing else, or begins or ends with an urgent call.
+    """
+    parts = _parts(text)
+    if not parts:
+        return False
+    said_last, last = parts[-1], len(parts[-1])
+    ends = (said_last[at:] for at in range(max(0, last - LONGEST_URGENT), last))
+    return (
+        (all(map(_is_said_beside, parts)) and any(map(_is_call, parts)))
+        or _is_urgent(parts[0])
+        or any(_is_urgent(end) and _is_call(end) for end in ends)
+    )
+
+
+def begins_or_ends_with_stop(text: str) -> bool:
+    """Whether a text begins with a call to stop that a sign parts from the rest, or ends with one.
+
+    At the end it is a call only with an exclamation mark: "..., stop" is the end of a route.
+    """
+    parts = _parts(text)
+    shouts = text.rstrip().endswith("!")
+    return bool(parts) and (_is_call(parts[0]) or (shouts and _is_call(parts[-1])))
+
+
+def _parts(text: str) -> list[Words]:
+    """The words between the signs of a text."""
+    return [words for words in map(plain_words, _BREAK.split(text)) if words]
+
+
+def _is_call(words: Words) -> bool:
+    """Whether words are calls to stop, with what may stand beside them, and nothing else."""
+    labels = _TABLE.labels(words) or []
+    return any(label != "beside" for label in labels)
+
+
+def _is_said_beside(words: Words) -> bool:
+    return _TABLE.labels(words) is not None
+
+
+def _is_urgent(words: Words) -> bool:
+    """Whether words begin with an urgent call."""
+    found = _TABLE.longest(words, 0)
+    return found is not None and found[1] == "urgent"

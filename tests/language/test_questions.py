@@ -1,0 +1,181 @@
+"""A question is short, in the speaker's language, and settled by a short answer."""
+
+import pickle
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from semnav_env.language import (
+    AmbiguousCommandError,
+    Command,
+    CommandError,
+    Question,
+    Stop,
+    parse,
+    sample_command,
+)
+from semnav_env.language.languages import languages
+from semnav_env.language.question import MOST_QUESTIONS, ask_until_clear
+
+QUESTIONS = [
+    ("turn 90 degrees", "Left, or right?"),
+    ("go back", "Back to the start, or around and down the hallway?"),
+    ("go past the first door, then through the second door", "The second, or the first?"),
+    ("go to the kitchn", 'Did you mean "kitchen"?'),
+    ("zorgle to the corner", 'I do not know "zorgle": shall I leave it out?'),
+    ("dreh dich um 90 Grad", "Links oder rechts?"),
+    ("geh zur Küüche", 'Meinst du "kueche"?'),
+]
+
+
+def question(text: str, rooms: tuple[str, ...] = ("kitchen", "Küche")) -> Question:
+    with pytest.raises(AmbiguousCommandError) as caught:
+        parse(text, None, rooms)
+    return caught.value.question
+
+
+def of_readings(language: str, *texts: str) -> Question:
+    return Question(tuple(map(parse, texts)), languages()[language])
+
+
+@pytest.mark.parametrize(("text", "asked"), QUESTIONS)
+def test_a_question_names_what_is_open_in_the_language_of_the_speaker(
+    text: str, asked: str
+) -> None:
+    assert question(text).text == asked
+
+
+DOOR = ("go through the second door on the left", "go to the second door on the left")
+SIDES = ("go through the second door on the left", "go through the second door on the right")
+ORDINALS = ("turn left at the second corner", "turn left at the third corner")
+BACK = ("go back to the start", "turn around and go down the hallway")
+ALONE = ("go through the first door",)
+
+ANSWERS = [
+    (DOOR, "en", "Through it, or only up to it?", {0: ["in", "through", "go in please"]}),
+    (DOOR, "en", "Through it, or only up to it?", {1: ["up to it", "in front of it", "not in"]}),
+    (DOOR, "de", "Hindurch oder nur davor?", {0: ["rein", "durch", "hindurch bitte"]}),
+    (DOOR, "de", "Hindurch oder nur davor?", {1: ["nur davor", "davor", "bis vor die Tür"]}),
+    (SIDES, "en", "Left, or right?", {0: ["left", "the left one", "no, not right"]}),
+    (SIDES, "en", "Left, or right?", {1: ["the right one", "no, the other one", "the second"]}),
+    (SIDES, "de", "Links oder rechts?", {0: ["die linke", "links", "ich meine links"]}),
+    (SIDES, "de", "Links oder rechts?", {1: ["nein, die andere", "nicht links sondern rechts"]}),
+    (ORDINALS, "en", "The second, or the third?", {0: ["the second", "second one", "2nd"]}),
+    (ORDINALS, "en", "The second, or the third?", {1: ["third", "no, the third one", "other"]}),
+    (ORDINALS, "de", "Die zweite oder die dritte?", {0: ["die zweite"], 1: ["dritte"]}),
+    (BACK, "en", "Back to the start, or around and down the hallway?", {0: ["the former"]}),
+    (
+        *(BACK, "en", "Back to the start, or around and down the hallway?"),
+        {1: ["turn around", "around", "no", "turn around and go down the hallway"]},
+    ),
+    (ALONE, "en", "Through the first door?", {0: ["yes", "yes please", "ok", "the first door"]}),
+    (ALONE, "de", "Durch die erste Tür?", {0: ["ja", "genau", "ja, durch die erste Tür"]}),
+]
+
+
+@pytest.mark.parametrize(("readings", "language", "asked", "answers"), ANSWERS)
+def test_a_short_answer_settles_it(
+    readings: tuple[str, ...], language: str, asked: str, answers: dict[int, list[str]]
+) -> None:
+    question = of_readings(language, *readings)
+    assert question.text == asked
+    for number, texts in answers.items():
+        for text in texts:
+            assert question.answer(text) == parse(readings[number]), text
+
+
+@pytest.mark.parametrize(
+    ("readings", "text"), [(DOOR, "yes"), (SIDES, "left or right"), (SIDES, "hm?"), (ALONE, "")]
+)
+def test_what_leaves_it_open_is_asked_again(readings: tuple[str, ...], text: str) -> None:
+    question = of_readings("en", *readings)
+    with pytest.raises(AmbiguousCommandError) as again:
+        question.answer(text)
+    assert again.value.question == question
+
+
+LONG = (
+    "go through the second door on the left and turn left at the third corner",
+    "go down the hallway past the second door on the right and wait for 5 seconds",
+)
+
+
+def test_of_two_long_choices_only_the_likelier_is_named_and_then_the_other() -> None:
+    question = of_readings("en", *LONG)
+    assert question.text == "Through the second door on the left and left at the third corner?"
+    assert question.answer("yes") == parse(LONG[0])
+    assert question.answer("the right one") == parse(LONG[1])
+    with pytest.raises(AmbiguousCommandError) as again:
+        question.answer("no")
+    assert again.value.readings == (parse(LONG[1]),)
+    assert again.value.question.answer("yes") == parse(LONG[1])
+
+
+def test_no_to_the_only_reading_is_no_command() -> None:
+    with pytest.raises(CommandError, match="in other words"):
+        of_readings("en", *ALONE).answer("no")
+    with pytest.raises(CommandError, match="mit anderen Worten"):
+        of_readings("de", *ALONE).answer("nein")
+
+
+@pytest.mark.parametrize("text", ["stop", "Stopp!", "no, stop"])
+def test_stop_is_an_answer_to_every_question(text: str) -> None:
+    assert of_readings("en", *SIDES).answer(text) == Command((Stop(),))
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("turn around and go down the hallway", BACK[1]),
+        ("no, turn left at the next corner", "turn left at the first corner"),
+        ("yes, back to the start", BACK[0]),
+    ],
+)
+def test_a_whole_command_is_an_answer(text: str, meant: str) -> None:
+    assert of_readings("en", *BACK).answer(text) == parse(meant)
+
+
+@given(st.randoms(use_true_random=False), st.sampled_from(sorted(languages())))
+def test_a_choice_in_its_own_words_is_always_that_choice(random, language: str) -> None:
+    import numpy as np
+
+    rng = np.random.default_rng(random.getrandbits(32))
+    first, second = sample_command(rng), sample_command(rng)
+    if first == second:
+        return
+    question = Question((first, second), languages()[language])
+    for command in (first, second):
+        assert question.answer(command.say(language)) == command
+
+
+def test_parse_asks_until_it_is_clear() -> None:
+    asked, answers = [], iter(["what?", "the right one"])
+
+    def ask(text: str) -> str:
+        asked.append(text)
+        return next(answers)
+
+    assert parse("turn 90 degrees", ask=ask) == parse("turn right by 90 degrees")
+    assert asked == ["Left, or right?"] * 2
+
+
+def test_a_person_is_not_asked_for_ever() -> None:
+    asked: list[str] = []
+
+    def ask(text: str) -> str:
+        asked.append(text)
+        return "what?"
+
+    with pytest.raises(AmbiguousCommandError):
+        parse("turn 90 degrees", ask=ask)
+    assert len(asked) == MOST_QUESTIONS
+
+
+def test_a_question_survives_pickling() -> None:
+    with pytest.raises(AmbiguousCommandError) as caught:
+        parse("turn 90 degrees")
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert str(copy) == str(caught.value)
+    assert copy.question.answer("left") == parse("turn left by 90 degrees")
+    assert ask_until_clear(copy, lambda _: "right") == parse("turn right by 90 degrees")
