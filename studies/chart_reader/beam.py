@@ -341,4 +341,3 @@ def tags_of(trace: Trace | None) -> dict[str, float]:
     return found
 
 
-__all__ = ["Entry", "Hypothesis", "features", "hypotheses", "tags_of"]

@@ -1,4 +1,4 @@
-"""`python -m studies chart-reader`: train and measure the chart reader beside today's grammar."""
+"""`python -m studies chart_reader`: train and measure the chart reader beside today's grammar."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ import numpy as np
 from semnav_agents.translating.interpreter import understand as with_second_opinion
 from semnav_env.language.corpora import load_sentences, verdicts
 from semnav_env.language.parser import parse
+from studies.chart_reader.canonical import changed_commands, longest_text, times
 from studies.chart_reader.examples import SAMPLED, Example, all_examples, sampled_examples
 from studies.chart_reader.lexicon import TABLES
 from studies.chart_reader.measuring import OUTCOMES, Limits, chosen_limits, counted
@@ -35,6 +36,7 @@ class Arguments:
         write: write the weights that were learned from all development sets.
         doubt: measure the written weights with the learned translator as a second opinion on the
             held-out authors, who are the only ones from whom it has not learned. Needs `write`.
+        canonical: sampled commands whose canonical words are read; texts are timed, too.
         sampled: sampled commands in each language from which the ranker learns, too.
     """
 
@@ -43,6 +45,7 @@ class Arguments:
     write: bool = False
     doubt: bool = False
     sampled: int = 200
+    canonical: int = 0
 
     def run(self) -> int:
         """Print a table by language."""
@@ -50,7 +53,19 @@ class Arguments:
         print(" infeasible taken |\n|---|---|---|---|" + "---|" * (len(OUTCOMES) + 1))
         for name, code in CODES.items():
             self._measure(name, code)
+        for name, code in CODES.items() if self.canonical else ():
+            self._speak(name, code)
         return 0
+
+    def _speak(self, name: str, code: str) -> None:
+        """Read canonical words, and time the first development set and a long text."""
+        changed = list(changed_commands(self.canonical, code, np.random.default_rng(0)))
+        print(f"{name}: {len(changed)} of {self.canonical} commands are read as something else")
+        file = next(each for each in development_corpora() if name in each.stem)
+        each = 1000 * times([sentence.text for sentence in load_sentences(file)], code)
+        long = 1000 * times([longest_text()], code)[0]
+        middle, most = np.quantile(each, (0.5, 0.99))
+        print(f"{name}: median {middle:.0f} ms, 99 of 100 under {most:.0f} ms, long {long:.0f} ms")
 
     def _measure(self, name: str, code: str) -> None:
         files = [file for file in development_corpora() if name in file.stem]
@@ -127,7 +142,3 @@ def _print(name: str, authors: str, title: str, counts: dict[str, Counter[str]])
     taken = f"{infeasible['misread']} of {infeasible.total()}"
     total = feasible.total()
     print(f"| {name} | {authors} | {title} | {total} |{cells} {taken} |", flush=True)
-
-
-if __name__ == "__main__":
-    raise SystemExit(Arguments().run())

@@ -93,8 +93,8 @@ def _correct(so_far: Edited, bag: Features) -> Iterator[Edited]:
 
 def _deny(so_far: Edited, bag: Features) -> Iterator[Edited]:
     if so_far.bags and not isinstance(so_far.bags[-1], str):
-        denied, before = so_far.bags[-1], so_far._replace(bags=so_far.bags[:-1])
-        for each in _after_denial(before, denied, bag):
+        before = so_far._replace(bags=so_far.bags[:-1])
+        for each in _after_denial(before, so_far.bags[-1], bag):
             yield each._replace(cost=each.cost + 0.5, tags=(*each.tags, "edit:denied before"))
     topic = _topic_of(bag)
     yield _with(so_far, (*so_far.bags, *topic), 0.1, "denied")
@@ -118,9 +118,10 @@ def _after_denial(so_far: Edited, denied: Features, bag: Features) -> Iterator[E
     if changed is not None and "V" not in dict(bag):
         yield _with(so_far, (*so_far.bags, changed), 0.0, "instead of it")
     earlier = [index for index, each in enumerate(so_far.bags) if each[0][0][:5] != "topic"]
-    if earlier and not isinstance(so_far.bags[earlier[-1]], str):
-        index = earlier[-1]
-        before = replaced(so_far.bags[index], bag)
+    index = earlier[-1] if earlier else -1
+    whole = so_far.bags[index] if earlier else ""
+    if not isinstance(whole, str):
+        before = replaced(whole, bag)
         if before is not None:
             bags = (*so_far.bags[:index], before, *so_far.bags[index + 1 :])
             yield _with(so_far, bags, 0.6, "instead of that")
@@ -222,7 +223,8 @@ def _same_slot(values: dict[str, Any], name: str, value: Any) -> str | None:
     if base in ("obj", "be"):
         of_kind = [slot for slot in nouns if slot.partition(".")[2] == kind]
         ell = isinstance(value, tuple) and "ell" in dict(value)
-        return (of_kind or (nouns if ell or len(nouns) == 1 else [None]) or [None])[-1]
+        fitting_nouns = of_kind or (nouns if ell or len(nouns) == 1 else [])
+        return fitting_nouns[-1] if fitting_nouns else None
     return nouns[-1] if len(nouns) == 1 else None
 
 

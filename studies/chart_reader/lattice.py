@@ -95,7 +95,7 @@ class Lattice:
         """The words that may be meant from a word on: end, words and cost."""
         words, lexicon = self.words, self._lexicon
         word = words[at]
-        found = [(at + 1, (word,), 0.0)]
+        found: list[tuple[int, tuple[str, ...], float]] = [(at + 1, (word,), 0.0)]
         for size in (1, 2, 3):
             heard = tuple(words[at : at + size])
             for meant, cost in lexicon.alternatives.get(heard, ()) if len(heard) == size else ():
@@ -238,7 +238,7 @@ def _is_of_other(word: str, lexicon: Lexicon) -> bool:
 @lru_cache(maxsize=64)
 def _names(rooms: tuple[str, ...], code: str) -> tuple[Node, frozenset[str]]:
     """The tree of the names of rooms, and their words."""
-    root, own = Node(), set()
+    root, own = Node(), set[str]()
     spoken = spoken_names(rooms)
     prefix = {"en": ("room",), "de": ("raum", "zimmer")}[code]
     ends = Counter(match[0] for name in spoken.values() if (match := re.search(r"\d+$", name)))

@@ -216,8 +216,9 @@ def _at_the_door(clause: Clause, said: Features) -> Clause:
 
 def _is_next(door: Clause, following: Clause) -> bool:
     """Whether a door is the next one: closed doors do not count, so it is the first open one."""
-    both = isinstance(door, GoToDoor) and isinstance(following, GoToDoor)
-    return both and door.door.ordinal == 1 and following.door.ordinal in (1, 2)
+    if not isinstance(door, GoToDoor) or not isinstance(following, GoToDoor):
+        return False
+    return door.door.ordinal == 1 and following.door.ordinal in (1, 2)
 
 
 def _following(door: Clause, clause: Clause) -> Clause:

@@ -10,9 +10,10 @@ from semnav_agents.translating.interpreter import DoubtLimits
 from semnav_agents.translating.translator import translate
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import meaning_of, normal
-from semnav_env.language.errors import AmbiguousCommandError, CommandError
+from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
+from semnav_env.language.question import AmbiguousCommandError, Question
 from semnav_env.language.speech.recognition import language_of_text
 from studies.chart_reader.measuring import LIMITS, Limits
 from studies.chart_reader.ranker import features_of, probabilities, text_features, weights
@@ -99,7 +100,8 @@ def understand(
     if first.probability >= limits.act:
         return first.command
     asked = tuple(each.command for each in reading.ranked[:2])
-    raise AmbiguousCommandError(text[:200], asked, tuple(map(str, asked)))
+    spoken = language_of(language) if language else language_of_text(text, None)
+    raise AmbiguousCommandError(text, Question(asked, spoken, tuple(rooms)))
 
 
 LEAST_CONFIRMED = 0.5

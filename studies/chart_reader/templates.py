@@ -107,11 +107,9 @@ def clause_of(step: str, values: dict[str, Any]) -> Clause:
     return clause
 
 
-@cache
 def _options(kind: type[Clause], name: str) -> tuple[Any, ...]:
     """What a field may be in any form of its clause."""
-    each = (options.get(name, ()) for _, options in open_fields(kind))
-    return tuple(dict.fromkeys(option for options in each for option in options))
+    return tuple(option for _, options in open_fields(kind) for option in options.get(name, ()))
 
 
 def _fitting(value: Any, options: tuple[Any, ...]) -> Any:
@@ -181,4 +179,5 @@ def degrees_of(given: Features) -> int:
 def seconds_of(given: Features) -> int:
     """Seconds of a wait."""
     own = dict(given)
-    return round(own.get("n", 1) * (60 if "minutes" in own else 1))
+    seconds: float = own.get("n", 1.0) * (60 if "minutes" in own else 1)
+    return round(seconds)
