@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types slow soak docs policies clean
+.PHONY: demo test coverage packages versions lowest newest fallbacks lint types slow soak nightly docs policies clean
 
 demo: $(VENV)/.demo
 	$(BIN)/semnav demo "go through the second door on the right" --map heidelberg_hallway \
@@ -11,6 +11,43 @@ demo: $(VENV)/.demo
 
 test: $(VENV)/.test lint types
 	$(BIN)/python -m pytest -m "not slow" -n 2
+
+coverage: $(VENV)/.test
+	mkdir -p build/coverage
+	$(BIN)/python -m pytest -m "not slow" -n 2 --cov --cov-report=html:build/coverage/html
+	@echo "lines covered: $$($(BIN)/coverage report --format=total) %; build/coverage/html says which"
+
+packages: $(VENV)/.test
+	$(BIN)/python -m tests.installed
+
+# Some telling tests with the lowest and the newest versions that pyproject.toml allows, and without
+# what a machine may lack: our own linking of kernels, calls of Chipmunk in compiled code, vectors.
+TELLING := tests/test_determinism.py tests/env/test_env.py tests/scripts/test_cli.py \
+  tests/features/test_reference.py tests/features/test_lanes.py tests/features/test_line_map.py \
+  tests/language/test_command_errors.py tests/vector/test_vector_env.py \
+  tests/world/maps/test_generator.py tests/world/maps/test_geojson_errors.py \
+  tests/world/physics/test_world.py
+LINKING := tests/features/test_compiling.py tests/world/physics/test_compiled_drive.py
+TELL := -m pytest -q -m "not slow"
+TOOLS := pytest hypothesis array-api-compat
+
+versions: lowest newest fallbacks
+
+lowest:
+	mkdir -p build
+	$(PYTHON) -m tests.lowest_versions > build/lowest.txt
+	$(PYTHON) -m venv --clear build/lowest
+	build/lowest/bin/pip install -q -c build/lowest.txt -e ".[render,import]" $(TOOLS)
+	build/lowest/bin/python $(TELL) -W ignore::DeprecationWarning $(TELLING) $(LINKING)
+
+newest:
+	$(PYTHON) -m venv --clear build/newest
+	build/newest/bin/pip install -q -U -e ".[render,import]" $(TOOLS)
+	build/newest/bin/python $(TELL) $(TELLING) $(LINKING)
+
+fallbacks: $(VENV)/.test
+	SEMNAV_PLAIN_NUMBA=1 SEMNAV_PLAIN_PYMUNK=1 NUMBA_CPU_NAME=generic NUMBA_CPU_FEATURES= \
+	  $(BIN)/python $(TELL) $(TELLING)
 
 COUNT ?= 2000
 STRIKES ?= 10
@@ -25,13 +62,14 @@ soak: $(VENV)/.test
 slow: $(VENV)/.test
 	$(BIN)/python -m pytest -m slow
 
+nightly: slow soak versions coverage
+
 lint: $(VENV)/.test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 
 types: $(VENV)/.test
 	$(BIN)/mypy
-	$(BIN)/basedpyright
 
 docs: $(VENV)/.docs
 	$(BIN)/sphinx-build -W -b html docs docs/_build/html

@@ -219,7 +219,11 @@ class SemNavEnv(GymnasiumEnv[Any]):
         return self.simulator.steps / self.setup.control_hz
 
     def _enter(self, floor_plan: FloorPlan, setup: RobotSetup) -> None:
-        """Make all that belongs to one floor plan and one robot."""
+        """Make all that belongs to one floor plan and one robot.
+
+        A tracker that knows no floor plan is as good as a new one when it is told a command.
+        """
+        may_stay = not setup.exact and self.__dict__.get("setup") == setup
         self.floor_plan, self.setup = floor_plan, setup
         self.robot, self.lidar_spec = setup.robot, setup.lidar
         self.simulator = Simulator(floor_plan, setup, self.plan_source.dynamics)
@@ -227,12 +231,17 @@ class SemNavEnv(GymnasiumEnv[Any]):
         self._missions = tasks.MissionMaker(floor_plan, setup.robot, self.rules)
         self._actions = Actions(setup.robot)
         self.renderer = Renderer(self.world.still)
-        self.tracker = BeliefTracker(
+        if not may_stay:
+            self.tracker = self._new_tracker()
+
+    def _new_tracker(self) -> BeliefTracker:
+        setup = self.setup
+        return BeliefTracker(
             setup.lidar,
             setup.robot.lidar_mount,
             self.extractor,
             corrects_drift=self.corrects_drift and not setup.exact,
-            known_scene=floor_plan.scene_by(self.rules.door) if setup.exact else None,
+            known_scene=self.floor_plan.scene_by(self.rules.door) if setup.exact else None,
             rules=self.rules,
             observes_features=getattr(self.observation_type, "observes_features", True),
         )

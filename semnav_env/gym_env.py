@@ -92,9 +92,7 @@ class GymnasiumEnv(gym.Env[ObservationT, NDArray[np.float32]], Generic[Observati
         return self._spec
 
     @spec.setter
-    def spec(  # pyright: ignore[reportIncompatibleVariableOverride]
-        self, spec: EnvSpec | None
-    ) -> None:
+    def spec(self, spec: EnvSpec | None) -> None:
         self._spec = None if spec is None else replace(spec, max_episode_steps=self.max_steps)
 
     _spec: EnvSpec | None = None

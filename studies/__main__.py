@@ -14,6 +14,7 @@ STUDIES = CommandTable(
         "drift": ("studies.drift.command", "success against drift of odometry"),
         "exits": ("studies.exits.command", "how often robots get out through a named door"),
         "features": ("studies.features.command", "the feature extractor against truth"),
+        "grids": ("studies.grids", "kernels on grids beside those of SciPy"),
         "lines": ("studies.lines.command", "lines on real scans, walls on simulated ones"),
         "matching": ("studies.matching.command", "how exactly scans are matched"),
         "offices": ("studies.offices", "check generated offices, and time them"),

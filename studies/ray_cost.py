@@ -1,5 +1,4 @@
 """What a training on Ray costs: processor time a decision, and bytes an update."""
-# pyright: reportMissingImports=false
 
 from __future__ import annotations
 

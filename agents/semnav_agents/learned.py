@@ -1,4 +1,4 @@
-"""The learned agent, which runs a trained policy with NumPy and safetensors alone."""
+"""The learned agent, which runs a trained policy with NumPy alone."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
-from semnav_agents.hearing.agent import hearing_folder, hears
-from semnav_agents.hearing.card import ModelCard
+from semnav_agents.hearing.network import NetworkShape
 from semnav_agents.learning.actions import for_body
 from semnav_agents.learning.compact import (
     COMPACT_ENTRIES,
@@ -19,10 +18,17 @@ from semnav_agents.learning.compact import (
     CompactObserver,
     unseen,
 )
-from semnav_agents.learning.files import AGENT_FILE, POLICY_FILE, AgentDescription, load_tensors
 from semnav_agents.learning.inertia import Inertia
-from semnav_agents.learning.policy import Policy
+from semnav_agents.learning.policy import Policy, PolicySettings
 from semnav_agents.learning.shield import Shield
+from semnav_agents.networks.card import (
+    CARD_FILE,
+    Card,
+    bundled_names,
+    card_fields,
+    network_folder,
+    network_kind,
+)
 from semnav_env.mind.observations import read_odometry
 from semnav_env.mind.observations.layout import GOAL
 from semnav_env.robots import RobotSpec, robot_spec
@@ -32,13 +38,10 @@ from semnav_features.lidar_spec import LidarSpec
 _STOP = GOAL.columns.index("stop")
 """Where in the goal it says that the robot is to stand still."""
 
-PRETRAINED_FOLDER = Path(__file__).with_name("pretrained")
-"""Folder of the trained agents that come with the package."""
-
 
 def pretrained_names() -> tuple[str, ...]:
-    """Names of the trained agents that come with the package, sorted."""
-    return tuple(sorted(path.parent.name for path in PRETRAINED_FOLDER.glob(f"*/{AGENT_FILE}")))
+    """Names of the policies that come with the package, sorted."""
+    return bundled_names(PolicySettings)
 
 
 def agent_label(name: str) -> dict[str, object]:
@@ -47,19 +50,12 @@ def agent_label(name: str) -> dict[str, object]:
     Returns:
         "agent" and "training_seed", which is -1 for an agent that is not trained.
     """
-    if hears(name):
-        card = ModelCard.read(hearing_folder(name))
-        return {"agent": str(card.preset["name"]), "training_seed": card.seed}
-    folder = _folder(name)
-    if not (folder / AGENT_FILE).is_file():
+    if network_kind(name) not in (PolicySettings.KIND, NetworkShape.KIND):
         return {"agent": name, "training_seed": -1}
-    description = AgentDescription.read(folder)
-    label = description.preset.get("name", folder.name)
-    return {"agent": str(label), "training_seed": description.seed}
-
-
-def _folder(name: str | Path) -> Path:
-    return PRETRAINED_FOLDER / name if name in pretrained_names() else Path(name)
+    folder = network_folder(name)
+    card = card_fields(folder)
+    label = card["preset"].get("name", folder.name)
+    return {"agent": str(label), "training_seed": card["seed"]}
 
 
 class LearnedAgent:
@@ -93,33 +89,27 @@ class LearnedAgent:
         Raises:
             ValueError: there is none, it is damaged, or it does not fit this version.
             OSError: a file cannot be read.
-            ImportError: safetensors is not installed.
         """
-        folder = _folder(path)
-        description = AgentDescription.read(folder)
-        if description.is_untrained:
+        folder = network_folder(path)
+        card = Card.read(folder, PolicySettings)
+        settings, widths = card.settings, card.settings.widths
+        if settings.is_untrained:
             warnings.warn(
                 f"{folder} holds an untrained policy, of 0 decisions; go on with "
-                f"`semnav train {description.preset.get('name')} --out {folder} --resume`",
+                f"`semnav train {card.preset.get('name')} --out {folder} --resume`",
                 stacklevel=2,
             )
         try:
-            sizes = [robot_spec(robot).action_size for robot in description.robots]
+            sizes = [robot_spec(robot).action_size for robot in settings.robots]
         except ValueError as error:
-            raise ValueError(f"{folder / AGENT_FILE}: {error}") from None
+            raise ValueError(f"{folder / CARD_FILE}: {error}") from None
         fitting = (COMPACT_SIZE, max(sizes))
-        widths = description.widths
         if (widths[0], widths[-1]) != fitting:
             raise ValueError(
                 f"{folder}: the policy takes {widths[0]} values and gives {widths[-1]}; this "
                 f"version has {fitting[0]} and {fitting[1]}: train it anew"
             )
-        tensors = load_tensors(folder / POLICY_FILE)
-        try:
-            policy = Policy.from_tensors(tensors, widths)
-        except ValueError as error:
-            raise ValueError(f"{folder / POLICY_FILE}: {error}") from None
-        return cls(policy, description.robots, description.repeat)
+        return cls(Policy.load(folder, card), settings.robots, settings.repeat)
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode.

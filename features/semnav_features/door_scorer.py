@@ -5,7 +5,8 @@ One layer of hidden units j on the evidence x of `kernels.evidence_layout`:
     confidence = 1 / (1 + exp(-(c + sum_j v_j s(b_j + w_j . x)))),  s(t) = t / (1 + |t|)
 
 It was trained on simulated scans of random offices; `python -m studies train_doors` makes the
-file anew.
+file anew. The file is JSON, unlike those of the networks of agents, because this package needs
+NumPy and Numba only; and a kernel runs the scorer, not a network in NumPy.
 """
 
 from __future__ import annotations

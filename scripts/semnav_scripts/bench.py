@@ -31,7 +31,8 @@ class Arguments:
         episodes: time instead steps on the episodes of this split, such as train, resets included,
             beside the plain step.
         growth: time instead how a step grows with the building, the beams and the robots.
-        start: time instead how long processes take that import, ground, or make an environment.
+        start: measure instead the processor time of processes that import, ground, or make an
+            environment.
         cold: with --start, also compile all kernels into an empty folder, about a minute.
         runs: number of timings of each part, of which the median is shown.
         steps: number of calls in a timing.

@@ -14,14 +14,14 @@ from typing import Literal
 
 from tyro.conf import Positional
 
-from semnav_agents.hearing.card import CARD_FILE
 from semnav_agents.hearing.presets import HEARING_PRESETS
-from semnav_agents.learning.files import AGENT_FILE, CURVES_FOLDER
+from semnav_agents.learning.files import CURVES_FOLDER
 from semnav_agents.learning.presets import Preset, preset
 from semnav_agents.learning.reports import TrainingReport
 from semnav_agents.learning.rllib.options import RayOptions
 from semnav_agents.learning.rllib.start import start_training
 from semnav_agents.learning.session import Training, TrainingLimits, train
+from semnav_agents.networks.card import CARD_FILE
 from semnav_features.sole_writer import sole_writer
 from semnav_scripts.train_hearing import train_hearing
 from semnav_scripts.training_progress import training_display
@@ -64,7 +64,7 @@ class Arguments:
         self._check()
         folder.parent.mkdir(parents=True, exist_ok=True)
         with sole_writer(folder):
-            self._check_unused(folder, CARD_FILE if hears else AGENT_FILE)
+            self._check_unused(folder)
             if wanted is None:
                 return train_hearing(self.preset, folder, self.seed, self.minutes)
             return self._train(wanted, folder)
@@ -90,8 +90,8 @@ class Arguments:
         if self.seed < 0:
             raise ValueError(f"--seed is {self.seed}; it must be at least 0")
 
-    def _check_unused(self, folder: Path, file: str) -> None:
-        if not self.resume and (folder / file).exists():
+    def _check_unused(self, folder: Path) -> None:
+        if not self.resume and (folder / CARD_FILE).exists():
             raise ValueError(
                 f"{folder} holds a trained agent; go on with it by --resume, or give another --out"
             )

@@ -37,7 +37,7 @@ def peer_parts(plan: FloorPlan, robot: RobotSpec, lidar: LidarSpec, start: Pose)
 
 def _ir_sim(plan: FloorPlan, robot: RobotSpec, lidar: LidarSpec, start: Pose) -> Part:
     """A step of ir-sim."""
-    import irsim  # pyright: ignore[reportMissingImports]
+    import irsim
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "world.yaml")
@@ -79,7 +79,7 @@ def _ir_sim_world(
 
 def _navground(plan: FloorPlan, robot: RobotSpec, lidar: LidarSpec, start: Pose) -> Part:
     """A step of navground: the body is a disc that turns in a small circle."""
-    from navground import core, sim  # pyright: ignore[reportMissingImports]
+    from navground import core, sim
 
     period, radius = 1.0 / lidar.rate_hz, robot.width / 2
     wheels = core.kinematics.TwoWheelsDifferentialDriveKinematics(1.0, robot.width)

@@ -6,7 +6,6 @@ import os
 import subprocess
 import sys
 import tempfile
-import time
 
 from semnav_env.bench.timing import Part
 
@@ -25,6 +24,10 @@ for _ in range(100):
 
 STARTS: dict[str, tuple[str, ...]] = {
     "import semnav_env": ("-c", "import semnav_env"),
+    "import semnav_env; gymnasium.make": (
+        "-c",
+        "import semnav_env, gymnasium; gymnasium.make('SemNav-v0')",
+    ),
     "semnav --help": (*_SEMNAV, "--help"),
     "semnav map list": (*_SEMNAV, "map", "list"),
     "semnav ground": (
@@ -42,7 +45,7 @@ STARTS: dict[str, tuple[str, ...]] = {
 
 
 def start_parts() -> list[Part]:
-    """Processes from their start to their end, with kernels that have been compiled."""
+    """Processor time of whole processes, with kernels that have been compiled."""
     return [
         Part(name, lambda words=words: _seconds(words))  # type: ignore[misc]
         for name, words in STARTS.items()
@@ -55,19 +58,17 @@ def compile_seconds() -> float:
     It uses an empty folder in place of the user's.
     """
     with tempfile.TemporaryDirectory() as folder:
-        before = os.times()
-        _seconds(("-c", _EVERYTHING), {"SEMNAV_CACHE_DIR": folder})
-        after = os.times()
-    return sum(after[2:4]) - sum(before[2:4])
+        return _seconds(("-c", _EVERYTHING), {"SEMNAV_CACHE_DIR": folder})
 
 
 def _seconds(words: tuple[str, ...], variables: dict[str, str] | None = None) -> float:
-    """How long a call of Python takes, seconds."""
-    begin = time.perf_counter()
+    """Processor time of a call of Python, seconds."""
+    before = os.times()
     subprocess.run(
         [sys.executable, *words],
         env={**os.environ, **(variables or {})},
         check=True,
         capture_output=True,
     )
-    return time.perf_counter() - begin
+    after = os.times()
+    return sum(after[2:4]) - sum(before[2:4])

@@ -93,7 +93,7 @@ def training(
 
 
 def starting(runs: int, cold: bool) -> list[Timing]:
-    """Time how long starting takes; the yardstick first.
+    """Processor time that starting takes; the yardstick first.
 
     Args:
         runs: how often each part is timed; the median counts.

@@ -15,7 +15,7 @@ from numba.experimental import structref
 from semnav_env.judge.exact_hypot import exact_hypot
 from semnav_env.mind.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
 from semnav_env.mind.grounding.crossing import first_crossed
-from semnav_env.world.maps.geodesic import distance_at
+from semnav_env.world.grid.costs import cost_at
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.structures import ArraysType
@@ -128,7 +128,7 @@ def _remaining(record: JudgeRecord, state: Any) -> float:
     """Length of the way to the goal, metres."""
     if record.distances.size == 0:
         return 0.0
-    return distance_at(record.distances, state.west, state.south, state.spacing, state.x, state.y)
+    return cost_at(record.distances, state.west, state.south, state.spacing, state.x, state.y)
 
 
 @kernel

@@ -88,8 +88,7 @@ def first_state(mission: Mission) -> np.ndarray:
     state["x"], state["y"], state["heading"] = mission.start
     state["last_x"], state["last_y"] = mission.start[:2]
     state["period"]["pose"] = mission.start
-    state["west"], state["south"] = mission.geodesic.origin
-    state["spacing"] = mission.geodesic.spacing
+    state["west"], state["south"], state["spacing"] = mission.geodesic.grid.frame
     state["still_speed"], state["still_yaw_rate"] = rules.still_speed, rules.still_yaw_rate
     return state
 

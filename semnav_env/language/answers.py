@@ -1,102 +1,69 @@
-"""Reads the answer to a question: a choice in a few words, or a whole command."""
+"""Reads a short answer to a question: which choice its words speak for."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from semnav_env.language.clauses import Stop
 from semnav_env.language.command import Command
 from semnav_env.language.declarations import Spoken, field_names, is_ordinal
-from semnav_env.language.errors import CommandError
+from semnav_env.language.language import Language
 from semnav_env.language.phrase_table import PhraseTable, Words, plain_words
-from semnav_env.language.question import AmbiguousCommandError, Question
-from semnav_env.language.stops import is_stop
 
 REJECTED = -1
 """Stands for "no" to the only choice that was named."""
 
 
-def answered(question: Question, text: str) -> Command:
-    """The command that an answer means; see `Question.answer`."""
-    if is_stop(text):
-        return Command((Stop(),))
-    words = plain_words(text)
-    choice = _choice(question, words)
-    if choice is None:
-        return _by_command(question, text)
-    if choice != REJECTED:
-        return question.readings[choice]
-    if len(question.readings) > 1:
-        raise AmbiguousCommandError(text, replace(question, readings=question.readings[1:]))
-    raise CommandError(question.language.say("none_meant"), text)
+@dataclass(frozen=True)
+class Choice:
+    """What an answer may choose.
 
-
-def _by_command(question: Question, text: str) -> Command:
-    """The reading that a whole command names, or the command itself.
-
-    Raises:
-        AmbiguousCommandError: it is none, or leaves the same open.
+    Attributes:
+        name: as the question names it.
+        full: the whole command in canonical words.
+        part: in what it differs: a clause, a door, a side, an ordinal.
     """
-    from semnav_env.language.parser import parse
 
-    said = text
-    while (rest := _without_reply(question, said)) != said:
-        said = rest
-    try:
-        command = parse(said, question.language, question.rooms)
-    except CommandError:
-        raise AmbiguousCommandError(text, question) from None
-    matching = [each for each in question.readings if _holds(each, command)]
-    return matching[0] if len(matching) == 1 else command
+    name: str
+    full: str
+    part: Any
 
 
-def _without_reply(question: Question, text: str) -> str:
-    """The text without a "yes" or "no" at its beginning."""
-    first, _, rest = text.strip().partition(" ")
-    replies = {*question.language.answers["yes"], *question.language.answers["no"]}
-    return rest.strip() if rest and " ".join(plain_words(first)) in replies else text
-
-
-def _holds(reading: Command, command: Command) -> bool:
-    """Whether the clauses of a command stand in a reading, one behind the other."""
-    length = len(command.clauses)
-    starts = range(len(reading.clauses) - length + 1)
-    return any(reading.clauses[at : at + length] == command.clauses for at in starts)
-
-
-def _choice(question: Question, words: Words) -> int | None:
-    """The number of the reading that a short answer means, or `REJECTED`.
+def choice_of(
+    words: Words, choices: Sequence[Choice], language: Language, *, both_named: bool
+) -> int | None:
+    """The number of the choice that a short answer means, or `REJECTED`.
 
     None if the answer is no such one, or leaves it open.
+
+    Args:
+        words: of the answer.
+        choices: one or two.
+        language: of the answer.
+        both_named: whether the question names both choices, and not the first alone.
     """
-    said = [{_said(question, reading), choice} for reading, choice in _pairs(question)]
-    exact = [number for number, texts in enumerate(said) if words in map(plain_words, texts)]
+    exact = [
+        number
+        for number, choice in enumerate(choices)
+        if words in (plain_words(choice.name), plain_words(choice.full))
+    ]
     if len(exact) == 1:
         return exact[0]
-    labels = PhraseTable(_phrases_by_label(question)).labels(words)
+    labels = PhraseTable(_phrases_by_label(choices, language)).labels(words)
     if not labels:
         return None
     first, second = _votes(labels)
     if first != second:
         return 0 if first > second else 1
     if "other" in labels or "no" in labels:
-        return 1 if question.offers_choice else REJECTED
-    if not question.offers_choice:
+        return 1 if both_named else REJECTED
+    if not both_named:
         return 0 if "yes" in labels else None
     if "first" in labels or "second" in labels:
         return int("second" in labels)
     return None
-
-
-def _pairs(question: Question) -> Iterator[tuple[Command, str]]:
-    return zip(question.readings, question.choices, strict=False)
-
-
-def _said(question: Question, reading: Command) -> str:
-    return reading.say(question.language)
 
 
 def _votes(labels: Iterable[object]) -> tuple[int, int]:
@@ -111,12 +78,12 @@ def _votes(labels: Iterable[object]) -> tuple[int, int]:
     return votes[0], votes[1]
 
 
-def _phrases_by_label(question: Question) -> dict[object, Iterable[str]]:
+def _phrases_by_label(choices: Sequence[Choice], language: Language) -> dict[object, Iterable[str]]:
     """The phrases of answers: those of the language, and those in which the choices differ."""
-    answers = question.language.answers
-    own = [set(_own_phrases(question, number)) for number in range(len(question.choices))]
+    answers = language.answers
+    own = [set(_own_phrases(choice, language)) for choice in choices]
     found: dict[object, Iterable[str]] = {label: words for label, words in answers.items()}
-    if any(is_ordinal(value) for part in question.open_parts for value in _values(part)):
+    if any(is_ordinal(value) for choice in choices for value in _values(choice.part)):
         del found["first"], found["second"]  # "the second" is then the second door
     if len(own) == 2:
         first, second = own
@@ -125,13 +92,12 @@ def _phrases_by_label(question: Question) -> dict[object, Iterable[str]]:
     return found | {number: sorted(phrases) for number, phrases in enumerate(own)}
 
 
-def _own_phrases(question: Question, number: int) -> Iterator[str]:
+def _own_phrases(choice: Choice, language: Language) -> Iterator[str]:
     """The words that name a choice, each alone, and what else its parts are called."""
-    language = question.language
-    yield question.choices[number]
-    yield from plain_words(question.choices[number])
-    yield from plain_words(_said(question, question.readings[number]))
-    for value in _values(question.open_parts[number]):
+    yield choice.name
+    yield from plain_words(choice.name)
+    yield from plain_words(choice.full)
+    for value in _values(choice.part):
         if isinstance(value, StrEnum):
             yield from language.answers.get(value.value, ())
         elif 0 < value <= len(language.ordinals):

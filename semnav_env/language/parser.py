@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
 
 from semnav_env.language.clauses import Stop
 from semnav_env.language.command import Command, room_of
@@ -10,7 +12,13 @@ from semnav_env.language.defaults import decided
 from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
-from semnav_env.language.question import AmbiguousCommandError, Ask, Question, ask_until_clear
+from semnav_env.language.question import (
+    AmbiguousCommandError,
+    Ask,
+    Question,
+    Read,
+    ask_until_clear,
+)
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
 
@@ -67,7 +75,7 @@ def only_one(
     from semnav_env.language.speech.recognition import language_of_text  # large, too
 
     spoken = language_of_text(text, language)
-    raise AmbiguousCommandError(text, Question(found, spoken, rooms))
+    raise AmbiguousCommandError(text, Question(found, spoken, _reading(language, rooms)))
 
 
 def correct(command: Command, text: str, language: str | Language = "en") -> Command:
@@ -93,11 +101,18 @@ def readings(
     try:
         found = readings_of_text(text, None if language is None else language_of(language), rooms)
         check_rooms(found[0], text, rooms)
-    except CommandError:
+    except CommandError as error:
         if isinstance(text, str) and begins_or_ends_with_stop(text):
             return STOP_AT_ONCE
+        if isinstance(error, AmbiguousCommandError):
+            answerable = replace(error.question, read=_reading(language, rooms))
+            raise AmbiguousCommandError(text, answerable) from None
         raise
     return found
+
+
+def _reading(language: str | Language | None, rooms: Sequence[str]) -> Read:
+    return partial(parse, language=language, rooms=rooms)
 
 
 def check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:

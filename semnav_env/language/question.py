@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from semnav_env.language.clauses import Approach, Clause, Turning
+from semnav_env.language.answers import REJECTED, Choice, choice_of
+from semnav_env.language.clauses import Approach, Clause, Stop, Turning
 from semnav_env.language.command import Command
 from semnav_env.language.declarations import Spoken, field_names, is_ordinal
 from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
+from semnav_env.language.phrase_table import plain_words
 from semnav_env.language.references import Side
+from semnav_env.language.stops import is_stop
 
 Ask: TypeAlias = Callable[[str], str]
 """Asks a person a question and returns the answer, like `input`."""
+
+Read: TypeAlias = Callable[[str], Command]
+"""Reads a text as a command, or raises a `CommandError`."""
 
 MOST_WORDS = 12
 """The longest question in which two choices are named, words."""
@@ -37,14 +43,14 @@ class Question:
     Attributes:
         readings: the commands that the text can mean, the likelier first. One alone is doubtful.
         language: of the speaker.
-        rooms: names of the rooms that there are; none if they are not known.
+        read: reads an answer that is a whole command; without it such answers settle nothing.
         misspelt: words that a slip of the pen was taken for; empty if there is none.
         unread: words that were left out because they are not understood; empty if there are none.
     """
 
     readings: tuple[Command, ...]
     language: Language = field(repr=False)
-    rooms: Sequence[str] = ()
+    read: Read | None = field(default=None, repr=False, compare=False)
     misspelt: str = ""
     unread: str = ""
 
@@ -52,44 +58,38 @@ class Question:
     def text(self) -> str:
         """What is asked, such as "Through it, or only up to it?"."""
         say = self.language.say
-        if self.offers_choice:
+        if self.names_both:
             asked = self._of_two
         elif self.misspelt and len(self.readings) == 1:
             asked = say("question_misspelt", word=self.misspelt)
         elif self.unread and len(self.readings) == 1:
             asked = say("question_unread", word=self.unread)
         else:
-            asked = say("question_one", choice=self.choices[0])
+            asked = say("question_one", choice=self.choices[0].name)
         return asked[0].upper() + asked[1:]
 
     @cached_property
-    def offers_choice(self) -> bool:
+    def names_both(self) -> bool:
         """Whether both choices are named; where that takes long, only the likelier one is."""
         return len(self.choices) == 2 and len(self._of_two.split()) <= MOST_WORDS
 
     @property
     def _of_two(self) -> str:
         first, second = self.choices
-        return self.language.say("question_two", first=first, second=second)
+        return self.language.say("question_two", first=first.name, second=second.name)
 
     @cached_property
-    def choices(self) -> tuple[str, ...]:
-        """In a few words what the two likeliest readings differ in, or what the only one is."""
-        said = [self._said(part) for part in self.open_parts]
-        alike = len(set(said)) < len(said)
-        return tuple(tail.say(self.language) for tail in self._tails) if alike else tuple(said)
-
-    @cached_property
-    def open_parts(self) -> tuple[Any, ...]:
-        """What the two likeliest readings differ in: clauses, references, sides, ordinals, ...."""
-        parts: tuple[Any, ...] = self._tails
-        if len(parts) == 2 and all(len(tail.clauses) == 1 for tail in parts):
-            parts = _open_parts(*(tail.clauses[0] for tail in parts))
-        return parts
-
-    @property
-    def _tails(self) -> tuple[Command, ...]:
-        return unlike(self.readings[:2])
+    def choices(self) -> tuple[Choice, ...]:
+        """The likeliest two readings by what they differ in, or the only one."""
+        tails = unlike(self.readings[:2])
+        parts: tuple[Any, ...] = tails
+        if len(tails) == 2 and all(len(tail.clauses) == 1 for tail in tails):
+            parts = _open_parts(*(tail.clauses[0] for tail in tails))
+        names = [self._said(part) for part in parts]
+        if len(set(names)) < len(names):
+            names = [tail.say(self.language) for tail in tails]
+        full = [reading.say(self.language) for reading in self.readings]
+        return tuple(map(Choice, names, full, parts))
 
     def _said(self, part: Any) -> str:
         """A part in the words of the speaker's language."""
@@ -111,9 +111,41 @@ class Question:
             AmbiguousCommandError: it is still open; the question is that of the error.
             CommandError: no reading is meant: "no" to the only one.
         """
-        from semnav_env.language.answers import answered  # answers need what reads whole texts
+        if is_stop(text):
+            return Command((Stop(),))
+        choice = choice_of(
+            plain_words(text), self.choices, self.language, both_named=self.names_both
+        )
+        if choice is None:
+            return self._by_command(text)
+        if choice != REJECTED:
+            return self.readings[choice]
+        if len(self.readings) > 1:
+            raise AmbiguousCommandError(text, replace(self, readings=self.readings[1:]))
+        raise CommandError(self.language.say("none_meant"), text)
 
-        return answered(self, text)
+    def _by_command(self, text: str) -> Command:
+        """The reading whose clauses a whole command names, or else that command.
+
+        Raises:
+            AmbiguousCommandError: it is none, or leaves the same open.
+        """
+        if self.read is None:
+            raise AmbiguousCommandError(text, self)
+        try:
+            command = self.read(self._without_reply(text))
+        except CommandError:
+            raise AmbiguousCommandError(text, self) from None
+        matching = [each for each in self.readings if _holds(each, command)]
+        return matching[0] if len(matching) == 1 else command
+
+    def _without_reply(self, text: str) -> str:
+        """The text without "yes", "no" and the like at its beginning."""
+        replies = {*self.language.answers["yes"], *self.language.answers["no"]}
+        first, _, rest = text.strip().partition(" ")
+        if rest and " ".join(plain_words(first)) in replies:
+            return self._without_reply(rest)
+        return text
 
 
 class AmbiguousCommandError(CommandError):
@@ -190,6 +222,13 @@ def _part(command: Command, start: int, stop: int) -> Command:
         return Command(command.clauses[start:stop])
     except ValueError:
         return command
+
+
+def _holds(reading: Command, command: Command) -> bool:
+    """Whether the clauses of a command stand in a reading, one behind the other."""
+    length = len(command.clauses)
+    starts = range(len(reading.clauses) - length + 1)
+    return any(reading.clauses[at : at + length] == command.clauses for at in starts)
 
 
 def _open_parts(first: Any, second: Any) -> tuple[Any, Any]:

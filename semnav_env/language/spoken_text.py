@@ -105,10 +105,7 @@ def _without_slips(
     if all(isinstance(clause, Stop) for command in meant for clause in command.clauses):
         return None
     right = ", ".join(dict.fromkeys(corrected[1].values()))
-    question = Question(
-        meant, lexicon.language, tuple(dict.fromkeys(names.values())), misspelt=right
-    )
-    raise AmbiguousCommandError(text, question)
+    raise AmbiguousCommandError(text, Question(meant, lexicon.language, misspelt=right))
 
 
 def _ask_without_unread(
@@ -131,11 +128,4 @@ def _ask_without_unread(
     if unread is None:
         unread = understood.items[min(understood.reached, len(understood.items) - 1)]
     unread_words = " ".join(words[unread.start : unread.stop])
-    question = Question(
-        meant, lexicon.language, tuple(dict.fromkeys(names.values())), unread=unread_words
-    )
-    raise AmbiguousCommandError(text, question)
-
-
-def _rooms(names: Mapping[tuple[str, ...], str]) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(names.values()))
+    raise AmbiguousCommandError(text, Question(meant, lexicon.language, unread=unread_words))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.settings import PersonDetectorSettings
-from semnav_env.rescue.visible_floor import CELL, FloorGrid, visible_floor
+from semnav_env.rescue.visible_floor import CELL, floor_grid, visible_floor
 from semnav_env.robots import RobotSpec
+from semnav_env.world.grid.rays import Cells, mark_in_view
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Pose
 
@@ -36,13 +36,10 @@ class RoomCoverage:
     def __init__(self, plan: FloorPlan, robot: RobotSpec, detector: PersonDetectorSettings) -> None:
         regions = (*plan.rooms, *plan.areas)
         self.names = tuple(region.name for region in regions)
-        self.grid = FloorGrid.over(plan)
-        self._seen = self.grid.nothing()
-        rows, columns = self._seen.shape
-        x = self.grid.west + CELL * np.arange(columns)
-        y = self.grid.south + CELL * np.arange(rows)
-        places = x, y[:, None]
-        self.floor = np.full((rows, columns), len(regions))
+        self.grid = floor_grid(plan)
+        self._seen = np.zeros(self.grid.shape, np.uint8)
+        places = self.grid.x, self.grid.y[:, None]
+        self.floor = np.full(self.grid.shape, len(regions))
         for index, region in enumerate(regions):
             self.floor[shapely.contains_xy(region.polygon, *places)] = index
         for piece in plan.furniture.geometries:
@@ -61,8 +58,7 @@ class RoomCoverage:
             range_max: of the detector, metres.
         """
         before = self.shares
-        grid = self.grid.west, self.grid.south, CELL
-        mark_in_view(self._seen, *grid, eye, rays, ranges, range_max)
+        mark_in_view(self._seen, *self.grid.frame, eye, rays, ranges, range_max)
         self.shares = _shares(self._counts(self._seen & self._can_be_seen), self._totals)
         return float((self.shares - before) @ self._totals) * CELL**2
 
@@ -73,9 +69,8 @@ class RoomCoverage:
     @property
     def seen_cells(self) -> FloatArray:
         """The middles of the cells of rooms that were looked at, world frame, shape (n, 2)."""
-        row, column = np.nonzero(self._seen & self._can_be_seen & (self.floor < len(self.names)))
-        x, y = self.grid.west + CELL * column, self.grid.south + CELL * row
-        return np.stack((x, y), axis=1).astype(np.float64)
+        seen = self._seen & self._can_be_seen & (self.floor < len(self.names))
+        return self.grid.points(np.argwhere(seen))
 
     @property
     def floor_shares(self) -> FloatArray:

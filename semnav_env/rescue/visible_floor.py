@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.robots import RobotSpec
+from semnav_env.world.grid.cells import Grid
+from semnav_env.world.grid.poses import REACHED, Reach
+from semnav_env.world.grid.rays import Cells, mark_in_view
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps.cell_budget import spacing_within_budget
 from semnav_env.world.maps.floor_plan import FloorPlan
-from semnav_env.world.maps.pose_flood import REACHED
-from semnav_env.world.maps.reach import Reach, reach
+from semnav_env.world.maps.reach import reach
 from semnav_features.lidar_spec import LidarSpec
 
 CELL = 0.1
@@ -33,41 +34,19 @@ ALL_AROUND = LidarSpec("all around", 720, -math.pi, math.radians(0.5), range_min
 """Rays of a look all around."""
 
 
-@dataclass(frozen=True)
-class FloorGrid:
-    """A grid over a plan.
+def floor_grid(plan: FloorPlan) -> Grid:
+    """The cells over the whole of a plan.
 
-    Attributes:
-        west: x of the middle of the first column, metres.
-        south: y of the middle of the first row, metres.
-        rows: how many.
-        columns: how many.
+    Raises:
+        FloorPlanError: the plan is too large.
     """
-
-    west: float
-    south: float
-    rows: int
-    columns: int
-
-    @classmethod
-    def over(cls, plan: FloorPlan) -> FloorGrid:
-        """The grid over the whole of a plan.
-
-        Raises:
-            FloorPlanError: the plan is too large.
-        """
-        west, south, east, north = plan.boundary.bounds
-        spacing_within_budget(plan, CELL, CELL, "to tell which floor a robot sees")
-        rows, columns = (math.ceil(size / CELL) + 1 for size in (north - south, east - west))
-        return cls(west, south, rows, columns)
-
-    def nothing(self) -> Cells:
-        """Flags of the cells, none set, shape (rows, columns)."""
-        return np.zeros((self.rows, self.columns), np.uint8)
+    west, south, east, north = plan.boundary.bounds
+    spacing_within_budget(plan, CELL, CELL, "to tell which floor a robot sees")
+    return Grid.over((west, south), (east, north), CELL)
 
 
 def visible_floor(
-    plan: FloorPlan, robot: RobotSpec, detector: PersonDetectorSettings, grid: FloorGrid
+    plan: FloorPlan, robot: RobotSpec, detector: PersonDetectorSettings, grid: Grid
 ) -> Cells:
     """The cells that the detector on its mount can see, shape (rows, columns).
 
@@ -85,17 +64,17 @@ def visible_floor(
     size = robot.length, robot.width
     area = reach(plan, *size, headings=HEADINGS, turn=math.tau, border=BORDER)
     around = Lidar(plan, replace(ALL_AROUND, range_max=detector.range_max))
-    rays, seen = ALL_AROUND.directions, grid.nothing()
+    rays, seen = ALL_AROUND.directions, np.zeros(grid.shape, np.uint8)
     bearings = ALL_AROUND.angles
     looks = detector_headings(area, robot)
     off = bearings[None, :] - (area.angles + robot.lidar_mount[2])[:, None]
     in_view = np.abs(np.angle(np.exp(1j * off))) <= detector.field_of_view / 2 + 1e-9
-    step = round(STANDPOINT / area.spacing)
+    west, south, spacing = area.grid.frame
+    step = round(STANDPOINT / spacing)
     for row, column in (step * np.argwhere(looks[::step, ::step].any(axis=2))).tolist():
-        eye = area.origin[0] + area.spacing * column, area.origin[1] + area.spacing * row, 0.0
+        eye = west + spacing * column, south + spacing * row, 0.0
         ranges, shown = around.exact_ranges(eye), in_view[looks[row, column]].any(axis=0)
-        where = grid.west, grid.south, CELL
-        mark_in_view(seen, *where, eye, rays[shown], ranges[shown], detector.range_max)
+        mark_in_view(seen, *grid.frame, eye, rays[shown], ranges[shown], detector.range_max)
     return seen
 
 
@@ -108,8 +87,8 @@ def detector_headings(area: Reach, robot: RobotSpec) -> np.ndarray:
     """
     x, y, _ = robot.lidar_mount
     c, s = np.cos(area.angles), np.sin(area.angles)
-    columns = np.rint((c * x - s * y) / area.spacing).astype(int)
-    rows = np.rint((s * x + c * y) / area.spacing).astype(int)
+    columns = np.rint((c * x - s * y) / area.grid.spacing).astype(int)
+    rows = np.rint((s * x + c * y) / area.grid.spacing).astype(int)
     looks = np.zeros(area.states.shape, np.bool_)
     for k, (row, column) in enumerate(zip(rows.tolist(), columns.tolist(), strict=True)):
         looks[:, :, k] = np.roll(area.states[:, :, k] == REACHED, (row, column), axis=(0, 1))

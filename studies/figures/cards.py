@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
-from pathlib import Path
 from statistics import fmean
 from typing import Any
 
 from semnav_agents.evaluation.attempts import Attempt, read_attempts
-from semnav_agents.hearing.agent import BUNDLED_FOLDER
-from semnav_agents.hearing.card import ModelCard
-from semnav_features.writing import write_file
+from semnav_agents.hearing.network import NetworkShape
+from semnav_agents.learning.policy import PolicySettings
+from semnav_agents.networks.card import BUNDLED_FOLDER, Card, NetworkSettings
 from studies.figures.leaderboard import RESULTS
 
-DRIVE_CARD = BUNDLED_FOLDER / "drive" / "card.json"
-"""The card of the policy; that of an agent that hears is its `hearing.json`."""
-
-LISTENER = BUNDLED_FOLDER / "listener"
+AGENTS: dict[str, type[NetworkSettings]] = {"drive": PolicySettings, "listener": NetworkShape}
+"""The bundled agents with kept results, and the settings of their networks."""
 
 
 def results_of(agent: str) -> list[dict[str, Any]]:
@@ -46,15 +42,14 @@ def _mean(values: Sequence[float]) -> float:
     return round(fmean(values), 3)
 
 
-def drive_card() -> dict[str, Any]:
-    """The card of `drive` as it is."""
-    return dict(json.loads(Path(DRIVE_CARD).read_text(encoding="utf-8")))
+def bundled_card(agent: str) -> Card[NetworkSettings]:
+    """The card of a bundled agent as it is."""
+    return Card.read(BUNDLED_FOLDER / agent, AGENTS[agent])
 
 
 def main() -> None:
     """Write the results into the cards."""
-    card = drive_card() | {"results": results_of("drive")}
-    write_file(DRIVE_CARD, json.dumps(card, indent=1) + "\n")
-    heard = ModelCard.read(LISTENER)
-    heard.notes["results"] = results_of("listener")
-    heard.write(LISTENER)
+    for agent in AGENTS:
+        card = bundled_card(agent)
+        card.notes["results"] = results_of(agent)
+        card.write(BUNDLED_FOLDER / agent)

@@ -12,12 +12,12 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from semnav_agents.hearing.agent import BUNDLED_FOLDER
-from semnav_agents.hearing.card import ModelCard
+from semnav_agents.hearing.network import NetworkShape
+from semnav_agents.networks.card import BUNDLED_FOLDER, Card
 from studies.figures import IMAGES
 
 CURVES = IMAGES.parent / "results" / "curves"
-"""Folder of the kept curves, PRESET-SEED.json: `cloning.json` of a trained `drive`, `hearing.json`
+"""Folder of the kept curves, PRESET-SEED.json: `cloning.json` of a trained `drive`, the card
 of a trained `listener`."""
 
 MEASURES = {
@@ -56,7 +56,7 @@ def draw_cloning(ax: Axes) -> None:
 
 def listeners() -> dict[str, list[dict[str, Any]]]:
     """The curves of `listener`: of the bundled training, and by seed."""
-    found = {BUNDLED: ModelCard.read(BUNDLED_FOLDER / "listener").curve}
+    found = {BUNDLED: Card.read(BUNDLED_FOLDER / "listener", NetworkShape).curve}
     return found | {f"seed {seed}": card["curve"] for seed, card in kept("listener").items()}
 
 

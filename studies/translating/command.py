@@ -9,7 +9,8 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from semnav_agents.translating.files import save_translator
+from semnav_agents.networks.card import Card
+from semnav_agents.networks.weights import save_weights
 from semnav_env.language.corpora import ParseOutcome, load_sentences
 from studies.corpora import development_corpora
 from studies.translating.measure import counted, interpreters
@@ -66,14 +67,15 @@ class Arguments:
         varied = disturbed(known, self.disturbed, np.random.default_rng(self.seed))
         settings = TranslatorTraining(steps=self.steps)
         network = trained([*islice(written, self.generated), *varied], settings, self.seed)
-        notes = {
-            "seed": self.seed,
+        preset = {
             "generated": self.generated,
             "disturbed": self.disturbed,
             "corpora": [path.name for path in corpora],
             "training": asdict(settings),
         }
-        save_translator(self.out, network, notes)
+        halves = {name: array.astype(np.float16) for name, array in network.tensors.items()}
+        save_weights(self.out, halves)
+        Card(network.shape, preset, self.seed).write(self.out)
         return self.out
 
     def _measure(self, path: Path, folder: Path) -> None:

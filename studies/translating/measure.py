@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from semnav_agents.translating.files import load_translator
 from semnav_agents.translating.interpreter import LearnedInterpreter
+from semnav_agents.translating.network import load_translator
 from semnav_agents.translating.translator import translate
 from semnav_env.language.command import Command
 from semnav_env.language.corpora import ParseOutcome, Sentence

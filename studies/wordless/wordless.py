@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,12 +18,12 @@ from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
 from semnav_agents.hearing.agent import HearingAgent
-from semnav_agents.hearing.card import NETWORK_FILE, ModelCard
 from semnav_agents.hearing.collecting import Collector, GroundedGoal, Samples, ShownAgent
 from semnav_agents.hearing.learning import Learner
 from semnav_agents.hearing.network import NetworkShape
 from semnav_agents.hearing.torch_network import TorchGrounding
-from semnav_agents.learning.files import save_tensors
+from semnav_agents.networks.card import Card
+from semnav_agents.networks.weights import save_weights
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import Episode
 from semnav_env.language import encode, parse
@@ -96,6 +95,6 @@ def train(
         loss = learner.epoch(arrays, BATCH_SIZE, (rates[epoch], rates[epoch + 1]), rng)
         curve.append({"epoch": epoch, "loss": round(loss, 4)})
         yield curve[-1] | {"seconds": round(time.process_time() - start, 1)}
-    save_tensors(folder / NETWORK_FILE, network.arrays())
+    save_weights(folder, network.arrays())
     said = {"name": "wordless", "robot": robot, "episodes": len(episodes), "epochs": epochs}
-    replace(ModelCard(shape, said, seed), curve=curve).write(folder)
+    Card(shape, said, seed, curve=curve).write(folder)

@@ -8,10 +8,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from scipy.ndimage import distance_transform_edt
 
-from semnav_agents.planning.collision import FIELD_CELL, footprint_of, is_clear, obstacle_field
-from semnav_agents.planning.distance import distance_to_marked
+from semnav_agents.planning.collision import footprint_of, is_clear, obstacle_field
 from semnav_agents.planning.free import all_clear, clearances
 from semnav_agents.planning.nudge import best_nudge, path_clearance
 from semnav_env.robots import ROBOTS
@@ -70,15 +68,6 @@ def test_the_order_of_the_points_does_not_matter(points, pose, robot):
         for cloud in (points, points[::-1].copy())
     }
     assert len(answers) == 1
-
-
-@given(arrays(np.bool_, (24, 24)))
-def test_the_distance_field_is_the_euclidean_distance_transform(marked):
-    distance = distance_to_marked(marked, FIELD_CELL)
-    if not marked.any():
-        assert np.isinf(distance).all()
-    else:
-        assert distance == pytest.approx(FIELD_CELL * distance_transform_edt(~marked), abs=1e-6)
 
 
 def test_points_outside_the_window_are_left_out():

@@ -152,7 +152,7 @@ def test_what_cannot_be_demonstrated_is_refused(
 
 
 def test_any_observation_is_recorded_while_any_agent_drives(tmp_path: Path) -> None:
-    """Case 13: the oracle drives by the truth, and what a learner would have seen is kept."""
+    """The oracle drives by the truth, and what a learner would have seen is kept."""
     episode, oracle, expert = load_episodes("test_real")[0], make_agent("oracle"), Expert()
     shown = SemNavEnv(observation="command", max_seconds=300.0)
     told = demonstrate(SemNavEnv(observation="truth", max_seconds=300.0), oracle, episode, shown)
@@ -166,7 +166,7 @@ def test_any_observation_is_recorded_while_any_agent_drives(tmp_path: Path) -> N
 
 
 def test_a_dataset_has_a_specification_and_infos(tmp_path: Path) -> None:
-    """Case 13: `recover_environment` makes the environment that was shown."""
+    """`recover_environment` makes the environment that was shown."""
     words = ["test_real", "--agent", "oracle", "--observation", "command", "--episodes", "2"]
     out = tmp_path / "d"
     assert main(["demonstrate", *words, "--labels", "--rounds", "--out", str(out)]) == 0
@@ -193,7 +193,7 @@ def test_a_dataset_has_a_specification_and_infos(tmp_path: Path) -> None:
 def test_a_step_takes_far_less_than_seven_kilobytes(
     rounds: bool, most: int, driven: tuple[SemNavEnv, Demonstration], tmp_path: Path
 ) -> None:
-    """Case 13: of an observation with the scan, compressed; and what is rounded is near."""
+    """Of an observation with the scan, compressed; and what is rounded is near."""
     env = SemNavEnv(observation="all")
     shown = demonstrate(driven[0], make_agent("oracle"), driven[1].episode, env)
     with DemonstrationFile(str(tmp_path / "d"), env, "oracle", rounds) as file:

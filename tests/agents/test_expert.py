@@ -1,4 +1,4 @@
-"""Case 13: an expert that keeps no state labels any state that an environment comes to."""
+"""An expert that keeps no state labels any state that an environment comes to."""
 
 from __future__ import annotations
 

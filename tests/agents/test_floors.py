@@ -1,4 +1,4 @@
-"""Case 17: floors of benchmarks, agents that do not hear the command."""
+"""Floors of benchmarks, agents that do not hear the command."""
 
 from __future__ import annotations
 

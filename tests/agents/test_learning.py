@@ -9,24 +9,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_agents.learned import PRETRAINED_FOLDER, LearnedAgent, pretrained_names
+from semnav_agents.learned import LearnedAgent, pretrained_names
 from semnav_agents.learning.actions import for_body, from_body
 from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
-from semnav_agents.learning.files import (
-    AGENT_FILE,
-    POLICY_FILE,
-    AgentDescription,
-    save_tensors,
-)
-from semnav_agents.learning.policy import Policy
+from semnav_agents.learning.policy import Policy, PolicySettings
 from semnav_agents.learning.presets import PRESETS
+from semnav_agents.networks.card import BUNDLED_FOLDER, CARD_FILE, Card
+from semnav_agents.networks.weights import WEIGHTS_FILE, load_weights, save_weights
 from semnav_env.env import SemNavEnv
 from semnav_env.mind.observations import GOAL
 from semnav_env.robots import ROBOTS
 from tests.golden import drive
 from tests.support.compact_observations import LIDAR, compact, observation
-
-pytest.importorskip("safetensors", reason='needs the extra "rl"')
 
 WIDTHS = (COMPACT_SIZE, 16, 2)
 
@@ -34,17 +28,15 @@ WIDTHS = (COMPACT_SIZE, 16, 2)
 def policy(seed=0, widths=WIDTHS):
     rng = np.random.default_rng(seed)
     shapes = list(pairwise(widths))
-    return Policy(
-        tuple(rng.normal(size=(o, i)).astype(np.float32) for i, o in shapes),
-        tuple(rng.normal(size=o).astype(np.float32) for _, o in shapes),
-    )
+    weights = [rng.normal(size=(o, i)).astype(np.float32) for i, o in shapes]
+    biases = [rng.normal(size=o).astype(np.float32) for _, o in shapes]
+    return Policy.of_layers(list(zip(weights, biases, strict=True)))
 
 
-def save(folder, a_policy, **changes):
+def save(folder, a_policy):
     folder.mkdir(exist_ok=True)
-    save_tensors(folder / POLICY_FILE, a_policy.tensors())
-    fields = {"robots": ("wheelchair",), "repeat": 3, "widths": WIDTHS, "preset": {}}
-    AgentDescription(**{**fields, "seed": 0, "steps": 5, **changes}).write(folder)
+    save_weights(folder, a_policy.tensors)
+    Card(PolicySettings(("wheelchair",), 3, a_policy.widths, 5), {}, 0).write(folder)
     return folder
 
 
@@ -66,11 +58,11 @@ def test_every_preset_has_its_name():
 
 def test_the_agents_that_come_along_can_be_loaded_by_name():
     assert pretrained_names() == ("drive",)
-    assert all(LearnedAgent.load(name).policy.weights for name in pretrained_names())
+    assert all(LearnedAgent.load(name).policy.tensors for name in pretrained_names())
 
 
 def test_all_weights_that_come_along_are_small():
-    assert sum(path.stat().st_size for path in PRETRAINED_FOLDER.rglob("*")) < 5_000_000
+    assert sum(path.stat().st_size for path in BUNDLED_FOLDER.rglob("*")) < 5_000_000
 
 
 @pytest.mark.parametrize("name", drive.EPISODES)
@@ -89,17 +81,16 @@ def test_the_agents_that_drive_do_what_they_did_when_they_were_made(name):
 def test_a_policy_is_what_its_formula_says():
     net = policy(3)
     values = np.linspace(-1, 1, COMPACT_SIZE, dtype=np.float32)
-    hidden = np.tanh(net.weights[0] @ values + net.biases[0])
-    expected = np.clip(net.weights[1] @ hidden + net.biases[1], -1, 1)
+    hidden = np.tanh(net.tensors["0.weight"] @ values + net.tensors["0.bias"])
+    expected = np.clip(net.tensors["1.weight"] @ hidden + net.tensors["1.bias"], -1, 1)
     assert np.allclose(net.act(values), expected)
 
 
-@given(st.integers(0, 1000))
-def test_a_policy_comes_back_from_its_tensors(seed):
-    net = policy(seed)
-    again = Policy.from_tensors(net.tensors(), WIDTHS)
-    values = np.random.default_rng(seed).uniform(-1, 1, COMPACT_SIZE).astype(np.float32)
-    assert np.array_equal(net.act(values), again.act(values))
+def test_half_precision_is_widened(tmp_path):
+    save_weights(tmp_path, {"w": np.array([0.1, -7.0], np.float16)})
+    found = load_weights(tmp_path, {"w": (2,)})["w"]
+    assert found.dtype == np.float32
+    assert np.array_equal(found, np.array([0.1, -7.0], np.float16))
 
 
 def test_a_saved_agent_acts_as_its_policy(saved):
@@ -144,27 +135,36 @@ def test_another_robot_is_refused(saved):
 
 
 def test_a_policy_that_does_not_fit_is_refused(tmp_path):
-    folder = save(tmp_path / "a", policy(widths=(3, 4, 2)), widths=(3, 4, 2))
+    folder = save(tmp_path / "a", policy(widths=(3, 4, 2)))
     with pytest.raises(ValueError, match=f"takes 3 values .* has {COMPACT_SIZE} and 2"):
         LearnedAgent.load(folder)
 
 
 def edit(saved, **changes):
-    path = saved / AGENT_FILE
-    path.write_text(json.dumps({**json.loads(path.read_text()), **changes}))
+    path = saved / CARD_FILE
+    card = json.loads(path.read_text())
+    for name, value in changes.items():
+        (card if name in card else card["settings"])[name] = value
+    path.write_text(json.dumps(card))
 
 
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"format": 1}, "has format 1; this version reads format 2"),
-        ({"widths": [COMPACT_SIZE, -1, 2]}, "'widths' must be"),
-        ({"widths": [COMPACT_SIZE, True, 2]}, "'widths' must be"),
-        ({"widths": "wide"}, "'widths' must be of type list"),
-        ({"repeat": 0}, "'repeat' must be at least 1"),
-        ({"repeat": 1.5}, "'repeat' must be of type int"),
+        ({"format": 2}, "has format 2; this version reads format 3"),
+        ({"network": "grounding"}, "the card of a 'grounding', not of a 'policy'"),
+        ({"seed": -1}, "'seed' must be at least 0, not -1"),
+        ({"seed": "zero"}, "'seed' must be of type int, not 'zero'"),
+        ({"widths": [COMPACT_SIZE, -1, 2]}, r"settings: widths\[1\] is -1; it must be"),
+        ({"widths": [COMPACT_SIZE, True, 2]}, r"settings: widths\[1\] is True; it must be"),
+        ({"widths": [COMPACT_SIZE]}, "settings: widths is .* two or more"),
+        ({"widths": "wide"}, "settings: widths is 'wide'; it must be a tuple"),
+        ({"repeat": 0}, "settings: repeat is 0; it must be"),
+        ({"repeat": 1.5}, "settings: repeat is 1.5; it must be"),
+        ({"steps": -1}, "settings: steps is -1; it must be"),
         ({"robots": ["bicycle"]}, "no robot named 'bicycle'"),
-        ({"robots": []}, "'robots' must be one or more names"),
+        ({"robots": []}, "settings: robots is empty; it must be one or more names"),
+        ({"wheels": 4}, "settings: .*'wheels'"),
     ],
 )
 def test_a_wrong_description_is_refused_by_name(saved, changes, message):
@@ -175,13 +175,13 @@ def test_a_wrong_description_is_refused_by_name(saved, changes, message):
 
 @pytest.mark.parametrize("text", ["", "[]", "nonsense", "[" * 100_000, '"\\ud800"'])
 def test_a_wrong_description_is_refused(saved, text):
-    (saved / AGENT_FILE).write_text(text)
-    with pytest.raises(ValueError, match=AGENT_FILE):
+    (saved / CARD_FILE).write_text(text)
+    with pytest.raises(ValueError, match=CARD_FILE):
         LearnedAgent.load(saved)
 
 
 def test_a_folder_without_an_agent_is_refused(tmp_path):
-    with pytest.raises(ValueError, match=r"holds no trained agent: there is no agent\.json"):
+    with pytest.raises(ValueError, match=r"holds no trained network: there is no card\.json"):
         LearnedAgent.load(tmp_path)
 
 
@@ -195,15 +195,15 @@ def test_a_folder_without_an_agent_is_refused(tmp_path):
     ],
 )
 def test_wrong_weights_are_refused_by_name(saved, name, tensor, message):
-    save_tensors(saved / POLICY_FILE, {**policy().tensors(), name: tensor})
+    save_weights(saved, {**policy().tensors, name: tensor})
     with pytest.raises(ValueError, match=message):
         LearnedAgent.load(saved)
 
 
 def test_missing_weights_are_refused_by_name(saved):
-    tensors = policy().tensors()
+    tensors = dict(policy().tensors)
     del tensors["0.weight"]
-    save_tensors(saved / POLICY_FILE, tensors)
+    save_weights(saved, tensors)
     with pytest.raises(ValueError, match=r"'0.weight' is missing"):
         LearnedAgent.load(saved)
 
@@ -215,7 +215,7 @@ class Trap:
 
 @pytest.mark.parametrize("data", [b"", b"\0" * 8, b"\xff" * 64, pickle.dumps(Trap())])
 def test_a_file_that_is_not_safetensors_is_never_unpickled(saved, data):
-    (saved / POLICY_FILE).write_bytes(data)
+    (saved / WEIGHTS_FILE).write_bytes(data)
     with pytest.raises(ValueError, match="is not a safetensors file"):
         LearnedAgent.load(saved)
 
@@ -223,7 +223,7 @@ def test_a_file_that_is_not_safetensors_is_never_unpickled(saved, data):
 @given(cut=st.integers(0, 400))
 def test_a_file_cut_short_is_refused(tmp_path_factory, cut):
     folder = save(tmp_path_factory.mktemp("cut"), policy())
-    whole = (folder / POLICY_FILE).read_bytes()
-    (folder / POLICY_FILE).write_bytes(whole[: len(whole) * cut // 401])
+    whole = (folder / WEIGHTS_FILE).read_bytes()
+    (folder / WEIGHTS_FILE).write_bytes(whole[: len(whole) * cut // 401])
     with pytest.raises(ValueError, match="is not a safetensors file"):
         LearnedAgent.load(folder)

@@ -20,11 +20,11 @@ ray = pytest.importorskip("ray", reason='needs the extra "ray", in an environmen
 
 from semnav_agents.learned import LearnedAgent  # noqa: E402
 from semnav_agents.learning.compact import COMPACT_SIZE  # noqa: E402
-from semnav_agents.learning.files import load_tensors  # noqa: E402
 from semnav_agents.learning.presets import PRESETS, PPOSettings  # noqa: E402
 from semnav_agents.learning.rllib.options import RayOptions  # noqa: E402
 from semnav_agents.learning.rllib.start import start_training  # noqa: E402
 from semnav_agents.learning.rllib.weights import RLLIB_FILE  # noqa: E402
+from semnav_agents.networks.weights import load_tensors  # noqa: E402
 
 TINY = replace(
     PRESETS["hallway"],

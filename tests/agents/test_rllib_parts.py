@@ -9,7 +9,6 @@ import pytest
 pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 
 from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
-from semnav_agents.learning.files import AGENT_FILE
 from semnav_agents.learning.preset_envs import options_of_body
 from semnav_agents.learning.presets import PRESETS
 from semnav_agents.learning.rllib.options import RayOptions
@@ -21,6 +20,7 @@ from semnav_agents.learning.rllib.weights import (
     policy_from,
 )
 from semnav_agents.learning.training import LOGGED_KEYS
+from semnav_agents.networks.card import CARD_FILE
 from semnav_env.robots import robot_spec
 from semnav_env.vector import SemNavVectorEnv
 from semnav_scripts import main as cli
@@ -182,9 +182,9 @@ def test_without_ray_the_error_says_what_to_install(capsys, tmp_path, monkeypatc
 
 def test_what_cannot_be_resumed_is_said_before_ray_starts(capsys, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ray", None)
-    assert "holds no trained agent" in run(capsys, "--resume", "--out", tmp_path)[1]
+    assert "holds no trained network" in run(capsys, "--resume", "--out", tmp_path)[1]
     cli.main(["train", "hallway", "--steps", "0", "--out", str(tmp_path)])
-    assert (tmp_path / AGENT_FILE).exists()
+    assert (tmp_path / CARD_FILE).exists()
     capsys.readouterr()
     assert "was not trained with --engine ray" in run(capsys, "--resume", "--out", tmp_path)[1]
 

@@ -14,15 +14,12 @@ pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 pytest.importorskip("torch", reason='needs the extra "rl"')
 
 from semnav_agents.learning.cloning import EPOCHS
-from semnav_agents.learning.files import (
-    AGENT_FILE,
-    POLICY_FILE,
-    TRAINING_FILE,
-    AgentDescription,
-    load_tensors,
-)
+from semnav_agents.learning.files import TRAINING_FILE
+from semnav_agents.learning.policy import PolicySettings
 from semnav_agents.learning.presets import PRESETS
 from semnav_agents.learning.training import Trainer
+from semnav_agents.networks.card import CARD_FILE, Card
+from semnav_agents.networks.weights import WEIGHTS_FILE, load_tensors
 from semnav_features.sole_writer import sole_writer
 from semnav_scripts import main as cli
 from tests.support.paths import ROOT
@@ -49,7 +46,7 @@ def test_train_makes_an_agent_that_evaluate_and_demo_can_run(capsys, tmp_path):
     code, text, _ = run(capsys, "train", "tiny", "--out", out)
     assert code == 0
     assert text.startswith("128 decisions, success 0%")
-    assert AgentDescription.read(out).steps == 128
+    assert Card.read(out, PolicySettings).settings.steps == 128
     words = ("go through the first door on the right", "--pose", "-2.5,-0.3,0.24", "--agent", out)
     code, text, _ = run(capsys, "demo", *words, "--json")
     assert code in (0, 1)
@@ -59,21 +56,21 @@ def test_train_makes_an_agent_that_evaluate_and_demo_can_run(capsys, tmp_path):
 @pytest.mark.usefixtures("tiny")
 def test_train_does_not_overwrite_and_resumes_when_told_to(capsys, tmp_path):
     run(capsys, "train", "tiny", "--out", tmp_path, "--steps", 0)
-    before = load_tensors(tmp_path / POLICY_FILE)
+    before = load_tensors(tmp_path / WEIGHTS_FILE)
     code, _, err = run(capsys, "train", "tiny", "--out", tmp_path)
     assert code == 2
     assert "holds a trained agent; go on with it by --resume" in err
-    assert same(before, load_tensors(tmp_path / POLICY_FILE))
+    assert same(before, load_tensors(tmp_path / WEIGHTS_FILE))
     code, *_ = run(capsys, "train", "tiny", "--out", tmp_path, "--resume", "--steps", 64)
     assert code == 0
-    assert AgentDescription.read(tmp_path).steps == 64
-    assert not same(before, load_tensors(tmp_path / POLICY_FILE))
+    assert Card.read(tmp_path, PolicySettings).settings.steps == 64
+    assert not same(before, load_tensors(tmp_path / WEIGHTS_FILE))
 
 
 @pytest.mark.usefixtures("tiny")
 def test_an_interrupted_training_is_saved(capsys, tmp_path):
     def interrupt():
-        while not (tmp_path / POLICY_FILE).exists():
+        while not (tmp_path / WEIGHTS_FILE).exists():
             time.sleep(0.01)
         os.kill(os.getpid(), signal.SIGINT)
 
@@ -83,7 +80,9 @@ def test_an_interrupted_training_is_saved(capsys, tmp_path):
     thread.join()
     assert code == 130
     assert text.startswith("interrupted; ")
-    assert Trainer.resume(TINY, tmp_path).steps == AgentDescription.read(tmp_path).steps
+    assert (
+        Trainer.resume(TINY, tmp_path).steps == Card.read(tmp_path, PolicySettings).settings.steps
+    )
 
 
 @pytest.mark.usefixtures("tiny")
@@ -105,7 +104,7 @@ def test_a_training_that_sigterm_ends_goes_on_as_if_it_had_not(capsys, tmp_path,
         monkeypatch.setattr(Trainer, "prepare", real)
         assert code == 143
         assert text == f"interrupted; 0 decisions; saved in {out}; go on with --resume\n"
-        assert AgentDescription.read(out).is_untrained == (number < EPOCHS)
+        assert Card.read(out, PolicySettings).settings.is_untrained == (number < EPOCHS)
         code, *_ = run(capsys, "train", "shown", "--out", out, "--resume")
         assert code == 0
         assert same(straight, load_tensors(out / TRAINING_FILE))
@@ -148,7 +147,7 @@ def test_a_folder_is_trained_by_one_process_at_a_time(capsys, tmp_path):
     """The lock ends with its process, even one that is killed."""
     first = subprocess.Popen([sys.executable, "-c", TRAIN_TINY, tmp_path], cwd=ROOT)
     try:
-        while not (tmp_path / AGENT_FILE).exists():
+        while not (tmp_path / CARD_FILE).exists():
             time.sleep(0.01)
         for words in ([], ["--resume"]):
             code, _, err = run(capsys, "train", "tiny", "--out", tmp_path, *words)
@@ -184,7 +183,7 @@ def test_without_the_extra_the_error_says_what_to_install(capsys, tmp_path, monk
         (("--minutes", 0), "--minutes is 0.0; it must be positive and finite"),
         (("--minutes", "nan"), "--minutes is nan; it must be positive and finite"),
         (("--seed", -1), "--seed is -1; it must be at least 0"),
-        (("--resume",), "holds no trained agent"),
+        (("--resume",), "holds no trained network"),
     ],
 )
 def test_bad_arguments_are_named(capsys, tmp_path, words, message):

@@ -19,17 +19,19 @@ from semnav_agents.learned import LearnedAgent  # noqa: E402
 from semnav_agents.learning.cloning import EPOCHS  # noqa: E402
 from semnav_agents.learning.compact import CompactObserver  # noqa: E402
 from semnav_agents.learning.files import (  # noqa: E402
-    AGENT_FILE,
     CURVE_FILE,
-    POLICY_FILE,
     TRAINING_FILE,
-    AgentDescription,
+)
+from semnav_agents.learning.imitation import load_demonstrations  # noqa: E402
+from semnav_agents.learning.policy import PolicySettings  # noqa: E402
+from semnav_agents.learning.presets import PRESETS  # noqa: E402
+from semnav_agents.learning.training import Trainer  # noqa: E402
+from semnav_agents.networks.card import CARD_FILE, Card  # noqa: E402
+from semnav_agents.networks.weights import (  # noqa: E402
+    WEIGHTS_FILE,
     load_tensors,
     save_tensors,
 )
-from semnav_agents.learning.imitation import load_demonstrations  # noqa: E402
-from semnav_agents.learning.presets import PRESETS  # noqa: E402
-from semnav_agents.learning.training import Trainer  # noqa: E402
 from semnav_env.judge.metrics import spl  # noqa: E402
 from tests.support.paths import ROOT  # noqa: E402
 from tests.support.tiny_training import (  # noqa: E402
@@ -119,7 +121,7 @@ def test_a_resumed_training_learns_bit_for_bit_what_an_uninterrupted_one_learns(
     assert resumed.steps == done // 3 * 3 * ROLLOUT
     go_on(resumed, 7 - done // 3 * 3)
     assert same(weights(straight), weights(resumed))
-    for name in (TRAINING_FILE, POLICY_FILE):
+    for name in (TRAINING_FILE, WEIGHTS_FILE):
         found = load_tensors(tmp_path / "straight" / name)
         assert same(found, load_tensors(tmp_path / "broken" / name))
 
@@ -169,10 +171,10 @@ def test_a_training_that_is_killed_at_random_moments_learns_the_same(tmp_path, k
     rng, stretch = np.random.default_rng(kills), 3 * ROLLOUT
     total, reached, folder = 4 * kills * stretch, 0, tmp_path / "killed"
     for _ in range(kills):
-        resume = ["--resume"] if (folder / AGENT_FILE).exists() else []
+        resume = ["--resume"] if (folder / CARD_FILE).exists() else []
         words = [sys.executable, "-c", TRAIN_LONG, folder, str(total), *resume]
         running = subprocess.Popen(list(map(str, words)), cwd=ROOT, stderr=subprocess.DEVNULL)
-        while not resume and not (folder / AGENT_FILE).exists():
+        while not resume and not (folder / CARD_FILE).exists():
             time.sleep(0.01)
         time.sleep(rng.uniform(0.0, 8.0))
         running.kill()
@@ -217,10 +219,10 @@ def test_what_was_cloned_is_a_checkpoint(tmp_path):
     preset = replace(PRESETS["quick"], name="shown", envs=2, demonstrations=1, ppo=LONG.ppo)
     trainer = Trainer(preset, tmp_path, seed=0)
     trainer.save()
-    assert AgentDescription.read(tmp_path).is_untrained
+    assert Card.read(tmp_path, PolicySettings).settings.is_untrained
     for _ in trainer.prepare():
         pass
-    assert not AgentDescription.read(tmp_path).is_untrained
+    assert not Card.read(tmp_path, PolicySettings).settings.is_untrained
     resumed = Trainer.resume(preset, tmp_path)
     assert same(weights(trainer), weights(resumed))
     assert list(resumed.prepare()) == []

@@ -8,20 +8,19 @@ import numpy as np
 import pytest
 from hypothesis import given
 
+from semnav_agents.networks.card import BUNDLED_FOLDER, CARD_FILE, Card
+from semnav_agents.networks.weights import WEIGHTS_FILE, save_weights
 from semnav_agents.translating import interpreter
-from semnav_agents.translating.files import (
-    BUNDLED_FOLDER,
-    CARD_FILE,
-    WEIGHTS_FILE,
-    load_translator,
-    save_translator,
-)
 from semnav_agents.translating.interpreter import (
     DoubtLimits,
     LearnedInterpreter,
 )
 from semnav_agents.translating.masking import MAX_VALUES, masked
-from semnav_agents.translating.network import TranslatorNetwork, TranslatorShape
+from semnav_agents.translating.network import (
+    TranslatorNetwork,
+    TranslatorShape,
+    load_translator,
+)
 from semnav_agents.translating.programs import UnsayableError, command_of, symbols_of
 from semnav_agents.translating.support import TextSupport
 from semnav_agents.translating.translator import MAX_TRANSLATED_WORDS, translate
@@ -257,7 +256,7 @@ def test_the_same_text_gives_the_same_question() -> None:
 
 
 def test_the_weights_are_small() -> None:
-    assert (BUNDLED_FOLDER / WEIGHTS_FILE).stat().st_size <= 2_000_000
+    assert (BUNDLED_FOLDER / "translator" / WEIGHTS_FILE).stat().st_size <= 2_000_000
 
 
 def test_weights_come_back_from_their_files(tmp_path) -> None:
@@ -267,7 +266,8 @@ def test_weights_come_back_from_their_files(tmp_path) -> None:
         name: rng.normal(size=size).astype(np.float16).astype(np.float32)
         for name, size in shape.tensors().items()
     }
-    save_translator(tmp_path, TranslatorNetwork(shape, tensors), {"seed": 3})
+    save_weights(tmp_path, {name: each.astype(np.float16) for name, each in tensors.items()})
+    Card(shape, {}, 3).write(tmp_path)
     back = load_translator(tmp_path)
     assert back.shape == shape
     assert all(np.array_equal(back.tensors[name], tensors[name]) for name in tensors)
@@ -275,8 +275,13 @@ def test_weights_come_back_from_their_files(tmp_path) -> None:
 
 def test_a_broken_card_is_named(tmp_path) -> None:
     (tmp_path / CARD_FILE).write_text('{"shape": {"width": 7}}')
-    with pytest.raises(ValueError, match="no card of a translator"):
+    with pytest.raises(ValueError, match="has format None"):
         load_translator(tmp_path)
+
+
+def test_another_network_is_refused_by_its_kind() -> None:
+    with pytest.raises(ValueError, match="the card of a 'policy', not of a 'translator'"):
+        load_translator(BUNDLED_FOLDER / "drive")
 
 
 def test_asking_needs_no_torch() -> None:

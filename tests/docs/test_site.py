@@ -1,4 +1,4 @@
-"""Case 16: the pages of the documentation are found, and its reference names what there is."""
+"""The pages of the documentation are found, and its reference names what there is."""
 
 from __future__ import annotations
 

@@ -42,6 +42,17 @@ def test_every_registered_id_passes_the_checker(name: str, robot: str, mode: str
     check_env(env.unwrapped, skip_render_check=True)
 
 
+@pytest.mark.parametrize("name", IDS)
+def test_the_passive_checker_has_nothing_to_say(name: str) -> None:
+    """It looks at the first calls alone, and would warn, which is an error here."""
+    env = gym.make(f"semnav_env:{name}", disable_env_checker=False, render_mode="rgb_array")
+    env.reset(seed=0)
+    for _ in range(2):
+        env.step(env.action_space.sample())
+    env.render()
+    env.close()
+
+
 @pytest.mark.parametrize(("plan", "robot"), list(product(bundled_names(), ROBOTS)))
 def test_random_episodes_stay_within_the_spaces(plan: str, robot: str) -> None:
     env = SemNavEnv(robot, plan, observation="all", max_seconds=4.0)
@@ -281,3 +292,16 @@ def test_implicit_steps_that_are_neither_true_nor_false_are_refused(steps: objec
 def test_options_that_are_no_dict_are_refused() -> None:
     with pytest.raises(ValueError, match="options are a dict"):
         SemNavEnv().reset(options="turn left")  # type: ignore[arg-type]
+
+
+def test_a_reset_in_the_same_floor_makes_no_new_simulator() -> None:
+    env = SemNavEnv()
+    env.reset(seed=0, options=START)
+    before = env.simulator
+    env.reset(seed=1, options=START)
+    assert env.simulator is before
+
+
+def test_rendering_before_a_reset_is_an_error() -> None:
+    with pytest.raises(RuntimeError, match=r"call reset\(\) before render\(\)"):
+        SemNavEnv(render_mode="rgb_array").render()

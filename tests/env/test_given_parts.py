@@ -1,4 +1,4 @@
-"""Rewards, observations and lidars of somebody's own, given to the environment."""
+"""Rewards, observations, tasks and lidars of somebody's own, given to the environment."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.tasks import AddedTerms, RewardWeights, Tick
+from semnav_env.judge.tasks import AddedTerms, EpisodeRequest, RewardWeights, Tick
 from semnav_env.mind.observations import MODES, EntryObservation, Moment
 from semnav_env.robots import RobotSpec
 from semnav_env.vector import SemNavVectorEnv
@@ -208,3 +208,22 @@ def test_the_robot_waits_as_long_at_every_rate() -> None:
         while env.belief.clause == 0:
             env.step(np.zeros(2))
         assert env.seconds == pytest.approx(3.0, abs=0.15)
+
+
+class AlwaysStop:
+    """A task of one's own."""
+
+    def request(self, rng: np.random.Generator) -> EpisodeRequest:
+        return EpisodeRequest(command="stop", pose=START["pose"])
+
+
+def test_a_task_of_ones_own_says_what_is_asked() -> None:
+    _, info = SemNavEnv(task=AlwaysStop()).reset(seed=0)
+    assert info["command"] == "stop"
+
+
+def test_the_rate_of_the_lidar_is_that_of_control() -> None:
+    env = SemNavEnv(lidar=replace(TIM561, rate_hz=5.0), max_seconds=10.0)
+    env.reset(seed=0, options=START)
+    env.step([0.0, 0.0])
+    assert (env.seconds, env.max_steps, env.metadata["render_fps"]) == (0.2, 50, 5.0)

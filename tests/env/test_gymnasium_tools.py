@@ -1,4 +1,4 @@
-"""Cases 13 and 15: what Gymnasium's own tools ask of an environment."""
+"""What Gymnasium's own tools ask of an environment."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ def question(text: str, rooms: tuple[str, ...] = ("kitchen", "Küche")) -> Quest
 
 
 def of_readings(language: str, *texts: str) -> Question:
-    return Question(tuple(map(parse, texts)), languages()[language])
+    return Question(tuple(map(parse, texts)), languages()[language], parse)
 
 
 @pytest.mark.parametrize(("text", "asked"), QUESTIONS)
@@ -144,7 +144,7 @@ def test_a_choice_in_its_own_words_is_always_that_choice(random, language: str) 
     first, second = sample_command(rng), sample_command(rng)
     if first == second:
         return
-    question = Question((first, second), languages()[language])
+    question = Question((first, second), languages()[language], parse)
     for command in (first, second):
         assert question.answer(command.say(language)) == command
 

@@ -112,7 +112,7 @@ def test_both_decimal_signs_are_read(text: str, metres: str) -> None:
 
 @pytest.mark.parametrize("text", ["fahr 1.000 Meter", "go 1,000 metres", "go 3² metres"])
 def test_thousands_are_no_decimals(text: str) -> None:
-    """Case 5: a point or a comma between thousands would make metres of kilometres."""
+    """A point or a comma between thousands would make metres of kilometres."""
     with pytest.raises(CommandError):
         parse(text)
 

@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from semnav_agents.learning.files import MAX_FILE_SIZE
+from semnav_agents.networks.weights import MAX_FILE_SIZE
 from semnav_env.judge.episodes.files import MAX_BYTES as MAX_EPISODES
 from semnav_env.rescue.visible_floor import STANDPOINT
 from semnav_env.world.maps.cell_budget import MAX_CELLS

@@ -14,7 +14,7 @@ from ezdxf.enums import InsertUnits
 from PIL import Image
 
 from semnav_agents.learned import LearnedAgent
-from semnav_agents.learning.files import load_tensors, save_tensors
+from semnav_agents.networks.weights import load_tensors, save_tensors
 from semnav_env.judge.episodes import load_episodes, write_episodes
 from semnav_env.judge.metrics import Recording
 from semnav_env.world.maps import load_floor_plan, save_floor_plan
@@ -124,7 +124,7 @@ def _agent(folder: Path) -> Path:
     bundled = Path(semnav_agents.__file__).parent / "pretrained" / "drive"
     for file in bundled.iterdir():
         (folder / file.name).write_bytes(file.read_bytes())
-    return folder / "agent.json"
+    return folder / "card.json"
 
 
 def _recording(folder: Path) -> Path:

@@ -16,6 +16,7 @@ import pytest
 import shapely
 
 from semnav_env.robots import WHEELCHAIR
+from semnav_env.world.grid.occupancy import clear_near
 from semnav_env.world.lidar import Lidar
 from semnav_env.world.lidar.culling import CELL_SIZE, Culling
 from semnav_env.world.maps import (
@@ -27,7 +28,6 @@ from semnav_env.world.maps import (
 )
 from semnav_env.world.maps.cell_budget import MAX_CELLS
 from semnav_env.world.maps.geodesic import COARSEST_SPACING, GRID_SPACING, Geodesic
-from semnav_env.world.maps.nearness import clear_near
 from semnav_env.world.maps.reach import REACH_SPACING, reach
 from semnav_features.frames import FloatArray
 from tests.reliability.children import MEMORY, Outcome, in_child
@@ -86,13 +86,13 @@ def test_a_refusal_names_the_extent_and_what_would_be_right() -> None:
 @pytest.mark.parametrize("name", [*bundled_names(), "office:large:3"])
 def test_ordinary_plans_keep_their_grids(name: str) -> None:
     plan = load_floor_plan(name)
-    assert Geodesic(plan).spacing == GRID_SPACING
-    assert reach(plan, WHEELCHAIR.length, WHEELCHAIR.width).spacing == REACH_SPACING
+    assert Geodesic(plan).grid.spacing == GRID_SPACING
+    assert reach(plan, WHEELCHAIR.length, WHEELCHAIR.width).grid.spacing == REACH_SPACING
 
 
 def test_a_coarser_grid_still_leads_through_doors() -> None:
     geodesic = Geodesic(large())
-    assert GRID_SPACING < geodesic.spacing < COARSEST_SPACING
+    assert GRID_SPACING < geodesic.grid.spacing < COARSEST_SPACING
     assert geodesic.free.size < 1.01 * MAX_CELLS
     fine = Geodesic(crossed(20.0, 20.0, "small")).to((2.5, -3.0)).length((0.0, 0.0))
     assert geodesic.to((2.5, -3.0)).length((0.0, 0.0)) == pytest.approx(fine, abs=0.4)
@@ -105,7 +105,7 @@ def test_a_grid_of_any_spacing_within_the_budget_gives_nearly_the_same_ways(
     fine = Geodesic(plan).to((2.5, -3.0)).length((-9.0, 0.0))
     monkeypatch.setattr("semnav_env.world.maps.cell_budget.MAX_CELLS", 50_000)
     coarse = Geodesic(plan)
-    assert coarse.spacing > 1.7 * GRID_SPACING
+    assert coarse.grid.spacing > 1.7 * GRID_SPACING
     assert coarse.to((2.5, -3.0)).length((-9.0, 0.0)) == pytest.approx(fine, abs=0.5)
 
 

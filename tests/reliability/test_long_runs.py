@@ -36,7 +36,7 @@ def test_every_format_has_holes(tmp_path: Path) -> None:
 
 @EACH_FORMAT
 def test_a_run_of_a_common_token_never_hangs(kind: str, tmp_path: Path) -> None:
-    check(kind, COMMON_TOKENS, SHORT_RUN_BYTES, tmp_path)
+    check(kind, COMMON_TOKENS[:3], SHORT_RUN_BYTES, tmp_path)
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""Case 12: Ctrl-C and SIGTERM at random moments end a command in one line, with nothing half."""
+"""Ctrl-C and SIGTERM at random moments end a command in one line, with nothing half."""
 
 from __future__ import annotations
 
@@ -22,6 +22,77 @@ from tests.support.paths import ROOT
 def test_a_signal_at_any_time_ends_in_one_line(command: str, number: int) -> None:
     for seed in range(3):
         assert not (wrong := fault(command, number, seed)), wrong
+
+
+INTERRUPTED_AT_AN_IMPORT = """
+import os, signal, sys
+sys.path.insert(0, {root!r})
+
+class Interrupting:
+    left = {count}
+    def find_spec(self, name, path=None, target=None):
+        self.left -= 1
+        if not self.left:
+            os.kill(os.getpid(), {number})
+
+import semnav
+signal.signal(signal.SIGINT, signal.default_int_handler)
+sys.meta_path.insert(0, Interrupting())
+sys.argv[1:] = {words!r}
+sys.exit(semnav.main())
+"""
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("count", [1, 40, 200, pytest.param(330, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["map", "list"],
+        pytest.param(["--help"], marks=pytest.mark.slow),
+        pytest.param(["ground", "stop", "--json"], marks=pytest.mark.slow),
+    ],
+)
+def test_a_signal_while_loading_ends_in_one_line(words: list[str], count: int, number: int) -> None:
+    program = INTERRUPTED_AT_AN_IMPORT.format(
+        root=str(ROOT), count=count, words=words, number=int(number)
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    if done.returncode == 128 + number:
+        word = "interrupted" if number == signal.SIGINT else "terminated"
+        assert done.stderr == f"semnav: {word}\n"
+    else:  # it was done before so many modules were loaded
+        assert "Traceback" not in done.stderr
+        assert count > 1
+
+
+TERMINATED_AT_WORK = """
+import os, signal, sys
+sys.path.insert(0, {root!r})
+import semnav
+from semnav_scripts.map_list import Arguments
+
+def run(self):
+    try:
+        os.kill(os.getpid(), signal.SIGTERM)
+        signal.pause()
+    finally:
+        print("put away")
+
+Arguments.run = run
+sys.argv[1:] = ["map", "list"]
+sys.exit(semnav.main())
+"""
+
+
+def test_sigterm_lets_a_command_put_away_what_it_has_begun() -> None:
+    program = TERMINATED_AT_WORK.format(root=str(ROOT))
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (
+        143,
+        "put away\n",
+        "semnav: terminated\n",
+    )
 
 
 def chained(depth: int, first: BaseException) -> BaseException:

@@ -8,7 +8,7 @@ from tests.reliability.areas import AREAS, Area, try_area
 from tests.reliability.hostile import settings_classes
 from tests.test_layers import MODULES
 
-COUNT = 50
+COUNT = 20
 """Inputs of an area of share 1."""
 
 ENDINGS = ("Settings", "Spec", "Rules", "Weights", "Setup")

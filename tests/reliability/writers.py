@@ -13,7 +13,9 @@ import h5py
 from safetensors.numpy import load
 
 from semnav_agents.evaluation.attempts import Attempt, write_attempts
-from semnav_agents.learning.files import AGENT_FILE, POLICY_FILE, TRAINING_FILE
+from semnav_agents.learning.files import TRAINING_FILE
+from semnav_agents.networks.card import CARD_FILE
+from semnav_agents.networks.weights import WEIGHTS_FILE
 from semnav_env.judge.episodes import SPLITS
 from semnav_env.world.lidar import Lidar
 from semnav_env.world.maps import load_floor_plan, save_floor_plan
@@ -69,7 +71,7 @@ _CHECKS = {
 }
 """How files are read that differ from run to run."""
 
-AGENT_FILES = tuple(f"agent/{name}" for name in (TRAINING_FILE, POLICY_FILE, AGENT_FILE))
+AGENT_FILES = tuple(f"agent/{name}" for name in (TRAINING_FILE, WEIGHTS_FILE, CARD_FILE))
 DATASET_FILES = ("data/data/main_data.hdf5", "data/data/metadata.json")
 
 WRITERS = (

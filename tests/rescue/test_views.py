@@ -40,12 +40,12 @@ def test_a_view_shows_what_it_was_chosen_for() -> None:
 
 def test_a_look_is_taken_from_the_camera_and_not_from_the_middle() -> None:
     chart = floor()
-    row, column = chart.cell((0.2, 0.0))
+    row, column = chart.grid.cell((0.2, 0.0))
     chart.hits[:, column] = 10 * HIT  # a wall right before the middle, behind the camera
     shown = shown_from(chart, (0.0, 0.0, 0.0), LOOKER)
     eye = compose((0.0, 0.0, 0.0), SPOT.lidar_mount)
     assert eye[0] > 0.2
-    assert shown[row, chart.cell((1.0, 0.0))[1]]
+    assert shown[row, chart.grid.cell((1.0, 0.0))[1]]
     assert not shown[:, :column].any()
 
 
@@ -107,7 +107,7 @@ def test_a_beam_that_got_lost_shows_nothing_behind_the_wall_that_it_ought_to_hav
     chart.found[:] = 0
     scan = without_lost(lost, 10.0)
     chart.update((0.0, 0.0, 0.0), beams, scan, math.radians(120.0), 6.0)
-    behind = chart.cell((1.5, 0.0))[1]
+    behind = chart.grid.cell((1.5, 0.0))[1]
     assert np.isnan(scan[40])
     assert np.array_equal(np.delete(scan, 40), np.delete(ranges, 40))
     assert chart.has(LOOKED).any()
@@ -124,7 +124,7 @@ def pocket() -> SearchMap:
     """The hall with a pocket at its end, behind a bend that a long body cannot take."""
     chart = floor()
     for x0, x1, y0, y1 in ((0.5, 3.0, -0.4, -0.4), (0.5, 2.2, 0.4, 0.4), (2.2, 2.2, 0.4, 2.0)):
-        lower, upper = chart.cell((x0, y0)), chart.cell((x1, y1))
+        lower, upper = chart.grid.cell((x0, y0)), chart.grid.cell((x1, y1))
         chart.hits[lower[0] : upper[0] + 1, lower[1] : upper[1] + 1] = 10 * HIT
     return chart
 
@@ -134,7 +134,7 @@ def test_the_whole_body_does_not_get_to_where_its_middle_would() -> None:
     place = np.array([2.6]), np.array([1.3]), np.array([math.pi / 2])
     before_it = np.array([1.2]), np.array([0.0]), np.array([0.0])
     without, asked = (ways_from(chart, pose[:2], 0.28, body) for body in (None, (SPOT, pose)))
-    assert np.isfinite(asked.costs[chart.cell((2.6, 1.3))])
+    assert np.isfinite(asked.costs[chart.grid.cell((2.6, 1.3))])
     assert without.lead_to(*place).all()
     assert not asked.lead_to(*place).any()
     assert asked.lead_to(*before_it).all()

@@ -8,14 +8,15 @@ import numpy as np
 import shapely
 
 from semnav_env.rescue import PersonDetectorSettings
-from semnav_env.rescue.field_of_view import Cells, mark_in_view
 from semnav_env.rescue.person_detector import view_spec
 from semnav_env.rescue.room_coverage import RoomCoverage
-from semnav_env.rescue.visible_floor import CELL, FloorGrid, visible_floor
+from semnav_env.rescue.visible_floor import floor_grid, visible_floor
 from semnav_env.robots import SPOT
+from semnav_env.world.grid.cells import Grid
+from semnav_env.world.grid.poses import REACHED
+from semnav_env.world.grid.rays import Cells, mark_in_view
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps import FloorPlan, PlanDoor, Region, Surface, generate_office
-from semnav_env.world.maps.pose_flood import REACHED
 from semnav_env.world.maps.reach import reach
 from semnav_features.frames import compose
 from studies.search.all_around import seen_all_around
@@ -36,13 +37,13 @@ def passage_with_a_slit() -> FloorPlan:
     return FloorPlan("slit", (walls,), (), (), (corridor,), (), shapely.box(-2.0, -2.0, 10.0, 5.0))
 
 
-def flag(cells: Cells, grid: FloorGrid, x: float, y: float) -> bool:
-    return bool(cells[round((y - grid.south) / CELL), round((x - grid.west) / CELL)])
+def flag(cells: Cells, grid: Grid, x: float, y: float) -> bool:
+    return bool(cells[grid.cell((x, y))])
 
 
 def test_what_only_a_look_to_the_side_shows_cannot_be_seen_where_the_body_cannot_turn() -> None:
     plan = passage_with_a_slit()
-    grid = FloorGrid.over(plan)
+    grid = floor_grid(plan)
     seen = visible_floor(plan, SPOT, DETECTOR, grid)
     around = seen_all_around(plan, SPOT, DETECTOR, grid)
     assert flag(seen, grid, 7.5, 0.4)
@@ -54,18 +55,16 @@ def test_what_only_a_look_to_the_side_shows_cannot_be_seen_where_the_body_cannot
 def test_what_is_seen_from_a_pose_that_is_reached_counts() -> None:
     """From poses between those that are tried, all but rims and slivers."""
     plan = generate_office(3, "house")
-    grid = FloorGrid.over(plan)
+    grid = floor_grid(plan)
     seen, rng = visible_floor(plan, SPOT, DETECTOR, grid), np.random.default_rng(0)
     area = reach(plan, SPOT.length, SPOT.width, headings=36, turn=math.tau)
     poses = np.argwhere(area.states == REACHED)
     spec = view_spec(DETECTOR)
-    camera, looked = Lidar(plan, spec, SPOT.lidar_mount), grid.nothing()
+    camera, looked = Lidar(plan, spec, SPOT.lidar_mount), np.zeros(grid.shape, np.uint8)
     for row, column, k in poses[rng.integers(len(poses), size=300)].tolist():
-        x, y = area.origin[0] + area.spacing * column, area.origin[1] + area.spacing * row
-        pose = x, y, float(area.angles[k])
+        pose = area.grid.x[column], area.grid.y[row], float(area.angles[k])
         eye, ranges = compose(pose, SPOT.lidar_mount), camera.exact_ranges(pose)
-        where = grid.west, grid.south, CELL
-        mark_in_view(looked, *where, eye, spec.directions, ranges, DETECTOR.range_max)
+        mark_in_view(looked, *grid.frame, eye, spec.directions, ranges, DETECTOR.range_max)
     assert looked.sum() > 5000
     assert np.count_nonzero(looked & ~seen & 1) < 0.02 * looked.sum()
 

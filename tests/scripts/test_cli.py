@@ -15,6 +15,7 @@ from semnav_scripts import main as cli
 from semnav_scripts import progress
 from semnav_scripts.arguments import parse
 from semnav_scripts.checks import InstallationCheck
+from semnav_scripts.dispatch import LONGEST_LINE
 from semnav_scripts.doctor import Arguments as Doctor
 from semnav_scripts.map import COMMANDS as MAP
 from tests.support.command_line import run
@@ -226,3 +227,22 @@ def test_the_bar_appears_only_for_what_takes_long(capsys, monkeypatch):
 
     assert seen(60.0) == ""
     assert "3 letters" in seen(0.0)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["x" * 100_000],
+        ["map", "show", "x" * 100_000],
+        ["ground", "x" * 19_000],
+        ["extract", "x" * 100_000],
+        ["demo", "stop", "--map", "x" * 100_000],
+        ["evaluate", "--suite", "x" * 100_000],
+        ["demo", "stop", "--robot", "x" * 100_000],
+    ],
+)
+def test_an_error_repeats_no_long_words(capsys, words):
+    code, _, said = run(capsys, *words)
+    assert code == 2
+    assert len(said) < LONGEST_LINE + 100
+    assert said.count("\n") == 1

@@ -13,7 +13,14 @@ from shapely import affinity, box
 from semnav_env.judge.episodes import SPLITS, load_episodes
 from semnav_env.judge.episodes.generate import TooBareError, generate_episode
 from semnav_env.judge.episodes.site import Site
-from semnav_env.world.maps import FloorPlan, PlanDoor, Region, load_floor_plan, save_floor_plan
+from semnav_env.world.maps import (
+    FloorPlan,
+    PlanDoor,
+    Region,
+    generate_office,
+    load_floor_plan,
+    save_floor_plan,
+)
 from semnav_features.frames import Point
 from tests.support.command_line import run
 from tests.support.small_plans import closed
@@ -147,3 +154,21 @@ def test_what_no_robot_gets_into_is_named(tmp_path: Path, capsys: Any) -> None:
 def test_a_floor_in_which_no_pose_is_free_is_bare() -> None:
     with pytest.raises(TooBareError):
         generate_episode(Site(shaft(), "shaft", whole=True), SPLITS["test_real"], 0)
+
+
+def test_episodes_are_made_in_plans_of_the_projects_own_format(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    lab, out = tmp_path / "lab.geojson", tmp_path / "out"
+    save_floor_plan(generate_office(3), lab)
+    assert run(capsys, "episodes", "import", lab, "--out", out, "--episodes", 1)[0] == 0
+    assert len(list(out.iterdir())) == 2
+
+
+def test_a_refused_import_leaves_no_folder(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    lab, out = tmp_path / "lab.geojson", tmp_path / "out"
+    lab.write_text("{}")
+    assert run(capsys, "episodes", "import", lab, "--out", out)[0] == 2
+    assert not out.exists()

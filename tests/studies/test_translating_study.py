@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from semnav_agents.translating.files import BUNDLED_FOLDER
+from semnav_agents.networks.card import BUNDLED_FOLDER
 from semnav_env.language import parse
 from semnav_env.language.corpora import (
     ParseOutcome,
@@ -70,14 +70,14 @@ def test_the_texts_are_the_same_for_the_same_seed() -> None:
 def test_the_grammar_is_judged_as_by_the_evaluation() -> None:
     sentences = load_sentences(development_corpora()[2])
     rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
-    grammar = interpreters(sentences, BUNDLED_FOLDER, 0.9)["grammar"]
+    grammar = interpreters(sentences, BUNDLED_FOLDER / "translator", 0.9)["grammar"]
     for sentence in sentences[:40]:
         assert outcome_of(sentence, grammar) == judge(sentence, rooms).outcome
 
 
 def test_the_second_opinion_acts_only_where_the_grammar_does() -> None:
     sentences = load_sentences(development_corpora()[3])[:60]
-    found = interpreters(sentences, BUNDLED_FOLDER, 0.9)
+    found = interpreters(sentences, BUNDLED_FOLDER / "translator", 0.9)
     acts = (ParseOutcome.UNDERSTOOD, ParseOutcome.MISREAD)
     for sentence in sentences:
         before = outcome_of(sentence, found["grammar"])

@@ -1,8 +1,7 @@
-"""Beliefs from a record of what a robot sensed; run as a module where no simulator can be had."""
+"""Beliefs from a record of what a robot sensed; run as a module, also what of ours was loaded."""
 
 from __future__ import annotations
 
-import importlib.abc
 import json
 import pickle
 import sys
@@ -11,9 +10,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:
     from semnav_env.mind.belief import Belief, BeliefTracker
 
-SIMULATOR = ("dynamics", "env", "episodes", "lidar", "maps", "metrics", "observations", "rendering")
-SIMULATOR += ("robots", "routes", "simulator", "tasks", "judge", "world", "agents", "scripts")
-FORBIDDEN = {"pymunk", "shapely", *(f"semnav_env.{name}" for name in SIMULATOR)}
+NEEDED = ("language", "mind", "robots", "rules")
+"""What of `semnav_env` a robot may need; all else belongs to the simulator."""
 
 
 class Recorded(NamedTuple):
@@ -46,20 +44,23 @@ def described(belief: Belief) -> str:
     return f"{pose} {belief.clause} {goal!r} {belief.target.pose} {belief.impossible}"
 
 
-class _NoSimulator(importlib.abc.MetaPathFinder):
-    """Refuses to import what belongs to the simulator."""
+def simulator_loaded() -> list[str]:
+    """The modules of this process that a robot has no use for."""
+    return sorted(filter(_is_the_simulators, sys.modules))
 
-    def find_spec(self, name: str, path: Any, target: Any = None) -> None:
-        if any(name == each or name.startswith(f"{each}.") for each in FORBIDDEN):
-            raise ImportError(f"{name} is the simulator's")
+
+def _is_the_simulators(name: str) -> bool:
+    package, _, rest = name.partition(".")
+    if package == "semnav_env":
+        return bool(rest) and rest.split(".")[0] not in NEEDED
+    return package in ("pymunk", "shapely", "semnav_agents", "semnav_scripts")
 
 
 def main(path: str) -> None:
-    """Print the beliefs of a record as JSON."""
-    sys.meta_path.insert(0, _NoSimulator())
+    """Print the beliefs of a record, and what of the simulator they needed, as JSON."""
     with open(path, "rb") as file:
         record = Recorded(*pickle.load(file))
-    print(json.dumps(beliefs(record)))
+    print(json.dumps([beliefs(record), simulator_loaded()]))
 
 
 if __name__ == "__main__":

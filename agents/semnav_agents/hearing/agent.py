@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.base import Agent, Observation
-from semnav_agents.hearing.card import CARD_FILE, load_network
 from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.elements import Description, describe
-from semnav_agents.hearing.network import GroundingNetwork, NetworkOutput
+from semnav_agents.hearing.network import GroundingNetwork, NetworkOutput, NetworkShape
+from semnav_agents.networks.card import bundled_names, network_folder, network_kind
 from semnav_agents.scripted import ScriptedAgent
 from semnav_env.language.declarations import TokenVerb
 from semnav_env.mind.grounding import GoalKind
@@ -25,9 +25,6 @@ from semnav_features.lidar_spec import LidarSpec
 
 DECISION_STEPS = 3
 """Steps of the environment between decisions, 0.2 s."""
-
-BUNDLED_FOLDER = Path(__file__).parents[1] / "pretrained"
-"""Folder of the trained agents that come with the package."""
 
 STAYING = SeenGoal(GoalKind.STOP, (0.0, 0.0, 0.0), None)
 """The goal of a command that is over."""
@@ -41,17 +38,12 @@ Decision = tuple[ClauseState, Description]
 
 def hearing_names() -> tuple[str, ...]:
     """Names of the agents that hear the command and come with the package, sorted."""
-    return tuple(sorted(path.parent.name for path in BUNDLED_FOLDER.glob(f"*/{CARD_FILE}")))
-
-
-def hearing_folder(source: str | Path) -> Path:
-    """The folder of an agent that hears: one of `hearing_names`, or the folder itself."""
-    return BUNDLED_FOLDER / source if source in hearing_names() else Path(source)
+    return bundled_names(NetworkShape)
 
 
 def hears(source: str | Path) -> bool:
     """Whether that is the name or the folder of an agent that hears the command."""
-    return (hearing_folder(source) / CARD_FILE).is_file()
+    return network_kind(source) == NetworkShape.KIND
 
 
 class HearingAgent:
@@ -86,9 +78,8 @@ class HearingAgent:
         Raises:
             ValueError: there is none, it is damaged, or it does not fit this version.
             OSError: a file cannot be read.
-            ImportError: safetensors is not installed.
         """
-        return cls(load_network(hearing_folder(path)), driver)
+        return cls(GroundingNetwork.load(network_folder(path)), driver)
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode with the body and the lidar of `info`."""

@@ -12,7 +12,8 @@ from torch import Tensor, nn
 from semnav_agents.hearing.mirror import Arrays, mirrored
 from semnav_agents.hearing.network import KINDS
 from semnav_agents.hearing.torch_network import Grounded, TorchGrounding
-from semnav_agents.learning.policy import check_tensors
+from semnav_agents.networks.adam import adam_moments, adam_shapes, adam_tensors
+from semnav_agents.networks.weights import check_tensors
 
 PLACE_SCALE, HEADING_SHARPNESS = 0.25, 8.0
 """Scale of the Laplace distribution of places, metres; concentration of that of headings."""
@@ -91,8 +92,8 @@ ADVANCE_WEIGHT = 3.0
 WEIGHT_DECAY, MOST_GRADIENT = 0.01, 1.0
 """Of AdamW; and the norm to which gradients are cut."""
 
-MOMENTS = ("exp_avg", "exp_avg_sq")
-"""The tensors that the optimizer keeps for each parameter, beside the number of its steps."""
+ADAM_PREFIX = "adam."
+"""First part of the names of Adam's tensors."""
 
 POOLED = 16
 """Batches that are drawn at once and sorted by their number of elements."""
@@ -141,10 +142,9 @@ class Learner:
 
     def state(self) -> Arrays:
         """Weights and the state of the optimizer, by name."""
-        tensors = self.network.arrays()
-        for i, moments in self.optimizer.state_dict()["state"].items():
-            tensors |= {f"adam.{i}.{name}": value.numpy() for name, value in moments.items()}
-        return tensors
+        return self.network.arrays() | adam_tensors(
+            ADAM_PREFIX, self.optimizer.state_dict()["state"]
+        )
 
     def load(self, tensors: Arrays) -> None:
         """Go on from what `state` gave.
@@ -153,18 +153,13 @@ class Learner:
             ValueError: a tensor is missing, too many, of another shape or type, or not finite.
         """
         shapes, weights = self.network.shape.tensors(), list(self.network.parameters())
-        for i, weight in enumerate(weights):
-            shapes |= {f"adam.{i}.{name}": tuple(weight.shape) for name in MOMENTS}
-            shapes[f"adam.{i}.step"] = ()
+        shapes |= adam_shapes(ADAM_PREFIX, {i: tuple(w.shape) for i, w in enumerate(weights)})
         check_tensors(tensors, shapes)
         values = {name: torch.from_numpy(value.copy()) for name, value in tensors.items()}
         with torch.no_grad():
             for name, parameter in self.network.named().items():
                 parameter.copy_(values[name])
-        moments = {
-            i: {name: values[f"adam.{i}.{name}"] for name in ("step", *MOMENTS)}
-            for i in range(len(weights))
-        }
+        moments = adam_moments(ADAM_PREFIX, values, range(len(weights)))
         groups = self.optimizer.state_dict()["param_groups"]
         self.optimizer.load_state_dict({"state": moments, "param_groups": groups})
 

@@ -10,20 +10,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from semnav_agents.hearing.elements import ELEMENT_SIZE, Description
 from semnav_agents.hearing.tokens import COMMAND_SIZE
-from semnav_agents.layers import layer_norm, linear, perceptron, softmax
-from semnav_agents.learning.policy import check_tensors
-from semnav_features.checked_fields import Count, check_fields
+from semnav_agents.networks.card import Card, TransformerSettings
+from semnav_agents.networks.layers import (
+    Array,
+    Shapes,
+    attention,
+    layer_norm,
+    linear,
+    linear_shapes,
+    norm_shapes,
+    perceptron,
+    perceptron_shapes,
+    softmax,
+)
+from semnav_agents.networks.weights import check_tensors, load_weights
+from semnav_features.checked_fields import Count
 from semnav_features.frames import Pose, compose, relative
-
-Array = NDArray[np.float32]
 
 KINDS, ADVANCES, OFFSETS, QUERY_OUTPUTS = 4, 3, 4, 6
 """Kinds of goals; by how many clauses to go on, 0 to 2; numbers of a proposal: forward, left, and
@@ -38,56 +47,28 @@ MASKED = -1e9
 
 
 @dataclass(frozen=True)
-class NetworkShape:
-    """Sizes of the network.
+class NetworkShape(TransformerSettings):
+    """Sizes of the network, whose width is that of an element inside."""
 
-    Attributes:
-        width: numbers of an element inside.
-        heads: of the attention.
-        layers: of the encoder.
-        hidden: width of the perceptrons between.
-    """
+    KIND = "grounding"
 
-    width: Count = 64
-    heads: Count = 4
     layers: Count = 3
-    hidden: Count = 128
 
-    def __post_init__(self) -> None:
-        check_fields(self)
-        if self.width % self.heads:
-            raise ValueError(f"width is {self.width}; it must be a multiple of heads, {self.heads}")
-
-    def tensors(self) -> dict[str, tuple[int, ...]]:
+    def tensors(self) -> Shapes:
         """The shape of every tensor by name; weights are (outputs, inputs)."""
         d, h = self.width, self.hidden
-        layers = {
-            "embed.0": (h, ELEMENT_SIZE),
-            "embed.1": (d, h),
-            "command.0": (h, COMMAND_SIZE),
-            "command.1": (2 * d, h),
-            "offset.0": (h, d),
-            "offset.1": (OFFSETS + 1, h),
-            "goal.0": (h, d),
-            "goal.1": (QUERY_OUTPUTS, h),
-            "advance.0": (h, d + FIT_SIZE),
-            "advance.1": (ADVANCES, h),
-        }
-        norms = ["norm"]
+        shapes = perceptron_shapes("embed", ELEMENT_SIZE, h, d)
+        shapes |= perceptron_shapes("command", COMMAND_SIZE, h, 2 * d)
+        shapes |= perceptron_shapes("offset", d, h, OFFSETS + 1)
+        shapes |= perceptron_shapes("goal", d, h, QUERY_OUTPUTS)
+        shapes |= perceptron_shapes("advance", d + FIT_SIZE, h, ADVANCES)
         for k in range(self.layers):
-            layers |= {f"{k}.attend": (3 * d, d), f"{k}.merge": (d, d)}
-            layers |= {f"{k}.feed.0": (h, d), f"{k}.feed.1": (d, h)}
-            norms += [f"{k}.norm.0", f"{k}.norm.1"]
-        shapes: dict[str, tuple[int, ...]] = {}
-        for name, (rows, columns) in layers.items():
-            shapes |= {f"{name}.weight": (rows, columns), f"{name}.bias": (rows,)}
-        for name in norms:
-            shapes |= {f"{name}.weight": (d,), f"{name}.bias": (d,)}
+            shapes |= linear_shapes(f"{k}.attend", d, 3 * d) | linear_shapes(f"{k}.merge", d, d)
+            shapes |= perceptron_shapes(f"{k}.feed", d, h, d)
+        shapes |= norm_shapes("norm", d)
+        for k in range(self.layers):
+            shapes |= norm_shapes(f"{k}.norm.0", d) | norm_shapes(f"{k}.norm.1", d)
         return shapes
-
-    def plain(self) -> dict[str, Any]:
-        """As the plain data of a JSON file."""
-        return asdict(self)
 
 
 @dataclass(frozen=True)
@@ -126,6 +107,17 @@ class GroundingNetwork:
         check_tensors(tensors, shape.tensors())
         self.shape, self._tensors = shape, tensors
 
+    @classmethod
+    def load(cls, folder: Path) -> GroundingNetwork:
+        """The network of a folder.
+
+        Raises:
+            ValueError: there is none, it is damaged, or it does not fit this version.
+            OSError: a file cannot be read.
+        """
+        shape = Card.read(folder, NetworkShape).settings
+        return cls(shape, load_weights(folder, shape.tensors()))
+
     def ground(self, description: Description) -> NetworkOutput:
         """The goal of the clause under way, and whether that is done."""
         count = int(description.mask.sum())
@@ -163,11 +155,8 @@ class GroundingNetwork:
         return proposals[:, 0], proposals[:, 1:], self._perceptron("goal", x[0]), x[0]
 
     def _attend(self, k: int, x: Array) -> Array:
-        n, heads = len(x), self.shape.heads
-        parts = linear(self._tensors, f"{k}.attend", x).reshape(n, 3, heads, -1)
-        queries, keys, values = parts.transpose(1, 2, 0, 3)
-        weights = softmax(queries @ keys.transpose(0, 2, 1) / math.sqrt(queries.shape[-1]))
-        mixed = (weights @ values).transpose(1, 0, 2).reshape(n, -1)
+        parts = linear(self._tensors, f"{k}.attend", x).reshape(len(x), 3, self.shape.heads, -1)
+        mixed = attention(parts[:, 0], parts[:, 1], parts[:, 2])
         return linear(self._tensors, f"{k}.merge", mixed)
 
     def _perceptron(self, name: str, x: Array) -> Array:

@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
 import torch
-from numpy.typing import NDArray
 from torch import Tensor, nn
 
 from semnav_agents.hearing.network import (
@@ -16,7 +14,7 @@ from semnav_agents.hearing.network import (
     STILL,
     NetworkShape,
 )
-from semnav_agents.layers import EPSILON
+from semnav_agents.networks.torch_network import TorchNetwork
 
 
 class Grounded(NamedTuple):
@@ -37,23 +35,12 @@ class Grounded(NamedTuple):
     advances: Tensor
 
 
-class TorchGrounding(nn.Module):
-    """The network; its parameters have the names of `NetworkShape.tensors`, with "_" for "."."""
+class TorchGrounding(TorchNetwork):
+    """The network, with the parameters of `NetworkShape.tensors`."""
 
     def __init__(self, shape: NetworkShape, seed: int) -> None:
-        super().__init__()
+        super().__init__(shape.tensors(), _uniform, seed)
         self.shape = shape
-        generator = torch.Generator().manual_seed(seed)
-        for name, size in shape.tensors().items():
-            self.register_parameter(_flat(name), nn.Parameter(_drawn(name, size, generator)))
-
-    def named(self) -> dict[str, Tensor]:
-        """The parameters by the names of the files."""
-        return {name: getattr(self, _flat(name)) for name in self.shape.tensors()}
-
-    def arrays(self) -> dict[str, NDArray[np.float32]]:
-        """Copies of the parameters as arrays, as `network.GroundingNetwork` takes them."""
-        return {name: tensor.detach().numpy().copy() for name, tensor in self.named().items()}
 
     def forward(
         self, elements: Tensor, mask: Tensor, command: Tensor, bases: Tensor, robot: Tensor
@@ -68,55 +55,36 @@ class TorchGrounding(nn.Module):
             robot: its pose, shape (b, 3).
         """
         d = self.shape.width
-        told = self._perceptron("command", command)
-        embedded = self._perceptron("embed", elements) + told[:, None, d:]
+        told = self.perceptron("command", command)
+        embedded = self.perceptron("embed", elements) + told[:, None, d:]
         x = torch.cat((told[:, None, :d], embedded), dim=1)
         everyone = torch.cat((torch.ones_like(mask[:, :1]), mask), dim=1)
         for k in range(self.shape.layers):
-            x = x + self._attend(k, self._norm(f"{k}.norm.0", x), everyone)
-            x = x + self._perceptron(f"{k}.feed", self._norm(f"{k}.norm.1", x))
-        x = self._norm("norm", x)
-        proposals = self._perceptron("offset", x[:, 1:])
+            x = x + self._attend(k, self.norm(f"{k}.norm.0", x), everyone)
+            x = x + self.perceptron(f"{k}.feed", self.norm(f"{k}.norm.1", x))
+        x = self.norm("norm", x)
+        proposals = self.perceptron("offset", x[:, 1:])
         scores = proposals[..., 0].masked_fill(~mask, MASKED)
         places, headings = _placed(proposals[..., 1:], bases)
-        outputs = self._perceptron("goal", x[:, 0])
+        outputs = self.perceptron("goal", x[:, 0])
         fit = _fit(scores, places, headings, outputs, robot, elements[:, 0, STILL])
-        advances = self._perceptron("advance", torch.cat((x[:, 0], fit), dim=1))
+        advances = self.perceptron("advance", torch.cat((x[:, 0], fit), dim=1))
         return Grounded(scores.log_softmax(dim=1), places, headings, outputs, advances)
 
     def _attend(self, k: int, x: Tensor, mask: Tensor) -> Tensor:
         b, n, d = x.shape
-        parts = self._linear(f"{k}.attend", x).view(b, n, 3, self.shape.heads, -1)
+        parts = self.linear(f"{k}.attend", x).view(b, n, 3, self.shape.heads, -1)
         queries, keys, values = parts.permute(2, 0, 3, 1, 4)
         mixed = nn.functional.scaled_dot_product_attention(
             queries, keys, values, attn_mask=mask[:, None, None, :]
         )
-        return self._linear(f"{k}.merge", mixed.transpose(1, 2).reshape(b, n, d))
-
-    def _perceptron(self, name: str, x: Tensor) -> Tensor:
-        return self._linear(f"{name}.1", self._linear(f"{name}.0", x).relu())
-
-    def _linear(self, name: str, x: Tensor) -> Tensor:
-        weight, bias = getattr(self, _flat(f"{name}.weight")), getattr(self, _flat(f"{name}.bias"))
-        return nn.functional.linear(x, weight, bias)
-
-    def _norm(self, name: str, x: Tensor) -> Tensor:
-        weight, bias = getattr(self, _flat(f"{name}.weight")), getattr(self, _flat(f"{name}.bias"))
-        return nn.functional.layer_norm(x, (self.shape.width,), weight, bias, EPSILON)
+        return self.linear(f"{k}.merge", mixed.transpose(1, 2).reshape(b, n, d))
 
 
-def _flat(name: str) -> str:
-    return "p_" + name.replace(".", "_")
-
-
-def _drawn(name: str, size: tuple[int, ...], generator: torch.Generator) -> Tensor:
-    """First values: small uniform weights, no biases, norms that change nothing."""
-    if name.endswith("bias"):
-        return torch.zeros(size)
-    if len(size) == 1:
-        return torch.ones(size)
-    bound = 1.0 / math.sqrt(size[1])
-    return torch.empty(size).uniform_(-bound, bound, generator=generator)
+def _uniform(name: str, shape: tuple[int, ...], generator: torch.Generator) -> Tensor:
+    """Small weights, uniform."""
+    bound = 1.0 / math.sqrt(shape[1])
+    return torch.empty(shape).uniform_(-bound, bound, generator=generator)
 
 
 def _placed(offsets: Tensor, bases: Tensor) -> tuple[Tensor, Tensor]:

@@ -19,14 +19,14 @@ import numpy as np
 import torch
 
 from semnav_agents.hearing.agent import HearingAgent
-from semnav_agents.hearing.card import CARD_FILE, NETWORK_FILE, ModelCard
 from semnav_agents.hearing.collecting import Collector, Samples, ShownAgent
 from semnav_agents.hearing.learning import Learner, measured
 from semnav_agents.hearing.mirror import Arrays
-from semnav_agents.hearing.network import GroundingNetwork
+from semnav_agents.hearing.network import GroundingNetwork, NetworkShape
 from semnav_agents.hearing.presets import HearingPreset, HearingRound
 from semnav_agents.hearing.torch_network import TorchGrounding
-from semnav_agents.learning.files import load_tensors, save_tensors
+from semnav_agents.networks.card import CARD_FILE, Card
+from semnav_agents.networks.weights import load_tensors, save_tensors, save_weights
 from semnav_env.judge.episodes import Episode, load_episodes
 from semnav_features.writing import replacing
 
@@ -59,7 +59,7 @@ class HearingTrainer:
         torch.set_num_threads(1)  # a small network is slower with more
         self.preset, self.folder, self.seed = preset, folder, seed
         (folder / SAMPLES).mkdir(parents=True, exist_ok=True)
-        self.card = ModelCard(preset.shape, plain_preset(preset), seed)
+        self.card = Card(preset.shape, plain_preset(preset), seed)
         self.network = TorchGrounding(preset.shape, seed)
         self.learner = Learner(self.network)
         if (folder / CARD_FILE).exists():
@@ -120,7 +120,7 @@ class HearingTrainer:
         found = measured(self.network, self._held_out)
         progress = {PROGRESS: np.array((number, epoch))}
         save_tensors(self.folder / STATE_FILE, self.learner.state() | progress)
-        save_tensors(self.folder / NETWORK_FILE, self.network.arrays())
+        save_weights(self.folder, self.network.arrays())
         row = {"round": number, "epoch": epoch, "loss": round(loss, 4)}
         row |= {name: round(value, 4) for name, value in found.items() if math.isfinite(value)}
         return row | {"seconds": round(time.process_time() - start, 1)}
@@ -167,7 +167,7 @@ class HearingTrainer:
         return [self._split[order[(first + k) % len(order)]] for k in range(begin, end)]
 
     def _resume(self) -> None:
-        card = ModelCard.read(self.folder)
+        card = Card.read(self.folder, NetworkShape)
         for name, was, now in (
             ("preset", card.preset, self.card.preset),
             ("seed", card.seed, self.seed),
@@ -186,7 +186,7 @@ class HearingTrainer:
         number, epoch = (int(value) for value in tensors.pop(PROGRESS))
         self.learner.load(tensors)
         if not self._has(number, epoch=epoch):
-            save_tensors(self.folder / NETWORK_FILE, self.network.arrays())
+            save_weights(self.folder, self.network.arrays())
             found = measured(self.network, self._held_out)
             row = {name: round(value, 4) for name, value in found.items() if math.isfinite(value)}
             self._note({"round": number, "epoch": epoch, **row})

@@ -2,14 +2,61 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from pathlib import Path
+from typing import Annotated
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float32]
+from semnav_agents.networks.card import Card, NetworkSettings
+from semnav_agents.networks.layers import Array, Shapes, linear, linear_shapes
+from semnav_agents.networks.weights import load_weights
+from semnav_features.checked_fields import Bounds, Count, check_fields
+
+Width = Annotated[int, Bounds(1, 4096)]
+Counted = Annotated[int, Bounds(0, 10**15)]
+
+
+@dataclass(frozen=True)
+class PolicySettings(NetworkSettings):
+    """What an agent needs to run a policy, and how far its training is.
+
+    Attributes:
+        robots: names of the bodies that were driven.
+        repeat: steps of the environment for which a decision holds.
+        widths: of the observation, the hidden layers and the action.
+        steps: number of decisions so far.
+        imitated: number of demonstrations that were imitated first.
+    """
+
+    KIND = "policy"
+
+    robots: tuple[str, ...]
+    repeat: Count
+    widths: tuple[Width, ...]
+    steps: Counted
+    imitated: Counted = 0
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if not self.robots:
+            raise ValueError("robots is empty; it must be one or more names")
+        if len(self.widths) < 2:
+            raise ValueError(f"widths is {self.widths}; it must be two or more whole numbers")
+
+    @property
+    def is_untrained(self) -> bool:
+        """Whether nothing was learned: the weights are those that were drawn by chance."""
+        return not self.steps and not self.imitated
+
+    def tensors(self) -> Shapes:
+        """The shape of every tensor by name: "0.weight", "0.bias", "1.weight" and so on."""
+        shapes: Shapes = {}
+        for k, (inputs, outputs) in enumerate(pairwise(self.widths)):
+            shapes |= linear_shapes(str(k), inputs, outputs)
+        return shapes
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,60 +64,43 @@ class Policy:
     """A perceptron with tanh between its layers; the mean of the policy that was trained.
 
     Attributes:
-        weights: of each layer, shape (outputs, inputs).
-        biases: of each layer, shape (outputs,).
+        tensors: its weights by name, see `PolicySettings.tensors`.
     """
 
-    weights: tuple[Array, ...]
-    biases: tuple[Array, ...]
+    tensors: Mapping[str, Array]
+
+    @classmethod
+    def of_layers(cls, layers: Sequence[tuple[Array, Array]]) -> Policy:
+        """The policy of some layers, each a weight, shape (outputs, inputs), and a bias."""
+        tensors: dict[str, Array] = {}
+        for k, (weight, bias) in enumerate(layers):
+            tensors |= {f"{k}.weight": weight, f"{k}.bias": bias}
+        return cls(tensors)
+
+    @classmethod
+    def load(cls, folder: Path, card: Card[PolicySettings]) -> Policy:
+        """The policy of a folder.
+
+        Raises:
+            ValueError: the weights are damaged, or not those of the card.
+            OSError: they cannot be read.
+        """
+        return cls(load_weights(folder, card.settings.tensors()))
+
+    @property
+    def widths(self) -> tuple[int, ...]:
+        """Widths of the observation, the hidden layers and the action."""
+        inputs = self.tensors["0.weight"].shape[1]
+        return inputs, *(len(self.tensors[f"{k}.bias"]) for k in range(self._layers))
+
+    @property
+    def _layers(self) -> int:
+        return len(self.tensors) // 2
 
     def act(self, values: Array) -> Array:
         """The action for a compact observation, each part in [-1, 1]."""
-        for weight, bias in zip(self.weights[:-1], self.biases[:-1], strict=True):
-            values = np.tanh(weight @ values + bias)
-        action: Array = np.clip(self.weights[-1] @ values + self.biases[-1], -1.0, 1.0)
+        last = self._layers - 1
+        for k in range(last):
+            values = np.tanh(linear(self.tensors, str(k), values))
+        action: Array = np.clip(linear(self.tensors, str(last), values), -1.0, 1.0)
         return action
-
-    def tensors(self) -> dict[str, Array]:
-        """The layers by name: "0.weight", "0.bias", "1.weight" and so on."""
-        named: dict[str, Array] = {}
-        for i, (weight, bias) in enumerate(zip(self.weights, self.biases, strict=True)):
-            named |= {f"{i}.weight": weight, f"{i}.bias": bias}
-        return named
-
-    @classmethod
-    def from_tensors(cls, tensors: Mapping[str, Array], widths: tuple[int, ...]) -> Policy:
-        """The opposite of `tensors`.
-
-        Args:
-            tensors: by name.
-            widths: of the observation, the hidden layers and the action.
-
-        Raises:
-            ValueError: a tensor is missing, too many, of another shape or type, or not finite.
-        """
-        shapes: dict[str, tuple[int, ...]] = {}
-        for i, (inputs, outputs) in enumerate(pairwise(widths)):
-            shapes |= {f"{i}.weight": (outputs, inputs), f"{i}.bias": (outputs,)}
-        check_tensors(tensors, shapes)
-        layers = range(len(widths) - 1)
-        return cls(
-            tuple(tensors[f"{i}.weight"] for i in layers),
-            tuple(tensors[f"{i}.bias"] for i in layers),
-        )
-
-
-def check_tensors(tensors: Mapping[str, Array], shapes: Mapping[str, tuple[int, ...]]) -> None:
-    """Raise `ValueError` unless there are just these float32 tensors, all of them finite."""
-    wrong = sorted(tensors.keys() ^ shapes.keys())
-    if wrong:
-        raise ValueError(f"tensor {wrong[0]!r} is {'missing' if wrong[0] in shapes else 'unknown'}")
-    for name, shape in shapes.items():
-        tensor = tensors[name]
-        if tensor.shape != shape or tensor.dtype != np.float32:
-            raise ValueError(
-                f"tensor {name!r} is {tensor.dtype} of shape {tensor.shape}; "
-                f"it must be float32 of shape {shape}"
-            )
-        if not np.isfinite(tensor).all():
-            raise ValueError(f"tensor {name!r} is not finite")

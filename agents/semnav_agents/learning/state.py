@@ -9,21 +9,17 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from semnav_agents.learning.policy import check_tensors
+from semnav_agents.networks.adam import adam_moments, adam_shapes, adam_tensors
+from semnav_agents.networks.weights import Tensors, check_tensors, pop_count
 
 if TYPE_CHECKING:
     from stable_baselines3 import PPO
-
-Tensors = dict[str, NDArray[Any]]
 
 STEPS_NAME, IMITATED_NAME = "steps", "imitated"
 """Names of the counts of decisions, and of demonstrations that were imitated first."""
 
 POLICY_PREFIX, ADAM_PREFIX = "policy.", "optimizer."
 """First parts of the names of weights and of Adam's tensors."""
-
-ADAM_MOMENTS = ("step", "exp_avg", "exp_avg_sq")
-"""The tensors that Adam keeps for each parameter."""
 
 
 def write_state(model: PPO, imitated: int) -> Tensors:
@@ -32,9 +28,7 @@ def write_state(model: PPO, imitated: int) -> Tensors:
     tensors[IMITATED_NAME] = np.array(imitated, np.int64)
     for name, weight in model.policy.state_dict().items():
         tensors[POLICY_PREFIX + name] = weight.numpy()
-    for i, moments in model.policy.optimizer.state_dict()["state"].items():
-        tensors |= {f"{ADAM_PREFIX}{i}.{name}": moments[name].numpy() for name in ADAM_MOMENTS}
-    return tensors
+    return tensors | adam_tensors(ADAM_PREFIX, model.policy.optimizer.state_dict()["state"])
 
 
 def read_state(model: PPO, tensors: Mapping[str, NDArray[Any]]) -> int:
@@ -44,30 +38,16 @@ def read_state(model: PPO, tensors: Mapping[str, NDArray[Any]]) -> int:
         ValueError: a tensor is missing, too many, of another shape or type, or not finite.
     """
     rest = {IMITATED_NAME: np.array(0, np.int64), **tensors}  # older files do not have it
-    steps, imitated = (_count(rest.pop(name, None), name) for name in (STEPS_NAME, IMITATED_NAME))
+    steps, imitated = (pop_count(rest, name) for name in (STEPS_NAME, IMITATED_NAME))
     weights = model.policy.state_dict()
     shapes = {POLICY_PREFIX + name: tuple(weight.shape) for name, weight in weights.items()}
     parameters = list(model.policy.parameters()) if steps else []
-    for i, parameter in enumerate(parameters):
-        shapes[f"{ADAM_PREFIX}{i}.step"] = ()
-        shapes |= {f"{ADAM_PREFIX}{i}.{name}": tuple(parameter.shape) for name in ADAM_MOMENTS[1:]}
+    shapes |= adam_shapes(ADAM_PREFIX, {i: tuple(p.shape) for i, p in enumerate(parameters)})
     check_tensors(rest, shapes)
+    values = {name: torch.from_numpy(tensor.copy()) for name, tensor in rest.items()}
     model.num_timesteps = steps
-    model.policy.load_state_dict({name: _tensor(rest, POLICY_PREFIX + name) for name in weights})
-    state = {
-        i: {name: _tensor(rest, f"{ADAM_PREFIX}{i}.{name}") for name in ADAM_MOMENTS}
-        for i in range(len(parameters))
-    }
+    model.policy.load_state_dict({name: values[POLICY_PREFIX + name] for name in weights})
+    state = adam_moments(ADAM_PREFIX, values, range(len(parameters)))
     groups = model.policy.optimizer.state_dict()["param_groups"]
     model.policy.optimizer.load_state_dict({"state": state, "param_groups": groups})
     return imitated
-
-
-def _count(tensor: NDArray[Any] | None, name: str) -> int:
-    if tensor is None or tensor.shape != () or tensor.dtype != np.int64 or tensor < 0:
-        raise ValueError(f"tensor {name!r} must be one whole number of 64 bits, at least 0")
-    return int(tensor)
-
-
-def _tensor(tensors: Mapping[str, NDArray[Any]], name: str) -> torch.Tensor:
-    return torch.from_numpy(tensors[name].copy())

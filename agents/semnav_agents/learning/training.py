@@ -18,18 +18,18 @@ from semnav_agents.learning.cloning import EPOCHS, clone
 from semnav_agents.learning.files import (
     CURVES_FOLDER,
     TRAINING_FILE,
-    AgentDescription,
     load_checkpoint,
     save_agent,
     save_checkpoint,
     save_curve,
 )
 from semnav_agents.learning.imitation import demonstrations, load_demonstrations
-from semnav_agents.learning.policy import Policy
+from semnav_agents.learning.policy import Policy, PolicySettings
 from semnav_agents.learning.preset_envs import preset_envs
 from semnav_agents.learning.presets import Preset
 from semnav_agents.learning.reports import Preparation, TrainingReport
 from semnav_agents.learning.state import read_state, write_state
+from semnav_agents.networks.card import Card
 from semnav_env.judge.metrics import spl
 
 LOGGED_KEYS = ("is_success", "collisions", "path_length", "route_length")
@@ -66,10 +66,10 @@ class Trainer:
         Raises:
             ValueError: the folder holds no training, a damaged one or one of another preset.
         """
-        description = AgentDescription.read(folder)
-        _check_same(preset, description, folder)
+        card = Card.read(folder, PolicySettings)
+        _check_same(preset, card.preset, folder)
         tensors = load_checkpoint(folder)
-        trainer = cls(preset, folder, description.seed)
+        trainer = cls(preset, folder, card.seed)
         try:
             trainer._imitated = read_state(trainer.model, tensors)
         except ValueError as error:
@@ -191,18 +191,17 @@ def _seed_from(seed: int, steps: int) -> int:
 def _actor(model: PPO) -> Policy:
     """The part of the model that gives the mean action."""
     network = model.policy.mlp_extractor.policy_net
-    layers = [
-        layer for layer in (*network, model.policy.action_net) if isinstance(layer, torch.nn.Linear)
-    ]
-    return Policy(
-        tuple(layer.weight.detach().numpy().copy() for layer in layers),
-        tuple(layer.bias.detach().numpy().copy() for layer in layers),
+    return Policy.of_layers(
+        [
+            (layer.weight.detach().numpy().copy(), layer.bias.detach().numpy().copy())
+            for layer in (*network, model.policy.action_net)
+            if isinstance(layer, torch.nn.Linear)
+        ]
     )
 
 
-def _check_same(preset: Preset, description: AgentDescription, folder: Path) -> None:
-    now, then = preset.plain(), description.preset
-    for name, value in now.items():
+def _check_same(preset: Preset, then: dict[str, Any], folder: Path) -> None:
+    for name, value in preset.plain().items():
         if then.get(name) != value:
             raise ValueError(
                 f"{folder} was trained with another preset: {name} was {then.get(name)!r:.60}, "

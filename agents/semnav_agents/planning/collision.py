@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_agents.planning.distance import distance_to_marked
 from semnav_env.robots import RobotSpec
+from semnav_env.world.grid.distance import distance_to_marked
 from semnav_features.frames import FloatArray, Point
 from semnav_features.kernels.compiling import kernel
 
@@ -110,7 +110,9 @@ def _sort_into_field(
         if bin_of[k] >= 0:
             kept[place[bin_of[k]]] = points[k]
             place[bin_of[k]] += 1
-    return distance_to_marked(marked, FIELD_CELL), first, kept
+    distance = np.empty((n, n), dtype=np.float32)
+    distance_to_marked(marked, FIELD_CELL, distance)
+    return distance, first, kept
 
 
 @kernel

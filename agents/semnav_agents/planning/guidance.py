@@ -18,8 +18,8 @@ from semnav_agents.planning.heuristic import (
 )
 from semnav_agents.planning.lanes import close_gaps
 from semnav_agents.planning.motion import MotionCosts
+from semnav_env.world.grid.costs import descent
 from semnav_features.frames import FloatArray, Point
-from semnav_features.kernels.grid_search import descent
 
 MAX_DETOURS = 4
 """Largest number of searches for another way after a gap on the last one proved too narrow."""

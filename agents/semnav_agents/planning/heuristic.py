@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from semnav_agents.planning.collision import CELL_DIAGONAL, FIELD_CELL, Footprint, ObstacleField
 from semnav_agents.planning.motion import MotionCosts, crowding_at
+from semnav_env.world.grid.costs import least_costs
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
-from semnav_features.kernels.grid_search import least_costs
 
 COARSE_CELLS = 2
 """Cells of the distance field along one side of a cell of the heuristic."""

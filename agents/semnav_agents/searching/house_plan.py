@@ -42,10 +42,9 @@ class HousePlan:
         """A map of the house with its walls and rooms, in which nothing has been looked at."""
         lower, upper = self.wall_points.min(axis=0) - MARGIN, self.wall_points.max(axis=0) + MARGIN
         chart = SearchMap(settings, tuple(lower.tolist()), tuple(upper.tolist()))
-        for point in self.wall_points.tolist():
-            chart.walls[chart.cell(point)] = True
+        chart.walls[chart.grid.cells(*self.wall_points.T)] = True
         cells = np.argwhere(np.ones(chart.rooms.shape, bool))
-        x, y = points_to_parent(self._start, chart.points(cells)).T
+        x, y = points_to_parent(self._start, chart.grid.points(cells)).T
         plan = self._plan
         regions = (*plan.rooms, *plan.areas, *plan.corridors, *plan.intersections)
         for number, region in reversed(list(enumerate(regions))):
@@ -55,7 +54,5 @@ class HousePlan:
 
     def unseen_walls(self, chart: SearchMap, known: Mask) -> FloatArray:
         """Points of walls of which the lidar has seen nothing near, shape (n, 2)."""
-        steps = (self.wall_points - chart.lower) / chart.settings.spacing
-        column, row = np.rint(steps).astype(int).T
-        unseen: FloatArray = self.wall_points[~known[row, column]]
+        unseen: FloatArray = self.wall_points[~known[chart.grid.cells(*self.wall_points.T)]]
         return unseen

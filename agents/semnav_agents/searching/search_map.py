@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.searching.settings import SearchSettings
+from semnav_env.world.grid.cells import Grid
 from semnav_env.world.maps.cell_budget import check_cells
 from semnav_features.frames import FloatArray, Point, Pose
 from semnav_features.kernels.compiling import kernel
@@ -42,6 +43,7 @@ class SearchMap:
         FloorPlanError: it would have too many cells.
 
     Attributes:
+        grid: where the cells lie.
         hits: evidence that a cell is solid, shape (rows, columns).
         found: what cells were found to be, bits, same shape.
         tries: how often a look did not show what it was expected to, same shape.
@@ -50,15 +52,14 @@ class SearchMap:
     """
 
     def __init__(self, settings: SearchSettings, lower: Point, upper: Point) -> None:
-        self.settings, self.lower = settings, lower
-        columns = math.ceil((upper[0] - lower[0]) / settings.spacing) + 1
-        rows = math.ceil((upper[1] - lower[1]) / settings.spacing) + 1
-        check_cells(rows * columns, f"maps of a search in steps of {settings.spacing} m")
-        self.hits = np.zeros((rows, columns), np.int64)
-        self.found = np.zeros((rows, columns), np.uint8)
-        self.tries = np.zeros((rows, columns), np.uint8)
-        self.walls = np.zeros((rows, columns), np.bool_)
-        self.rooms = np.full((rows, columns), -1)
+        self.settings, self.grid = settings, Grid.over(lower, upper, settings.spacing)
+        shape = self.grid.shape
+        check_cells(math.prod(shape), f"maps of a search in steps of {settings.spacing} m")
+        self.hits = np.zeros(shape, np.int64)
+        self.found = np.zeros(shape, np.uint8)
+        self.tries = np.zeros(shape, np.uint8)
+        self.walls = np.zeros(shape, np.bool_)
+        self.rooms = np.full(shape, -1)
 
     def update(
         self, eye: Pose, directions: FloatArray, ranges: FloatArray, fov: float, view: float
@@ -74,7 +75,7 @@ class SearchMap:
         """
         s = self.settings
         reaches = (s.short_range, s.long_range, view, math.cos(fov / 2))
-        _cast(self.hits, self.found, *self.lower, s.spacing, eye, directions, ranges, *reaches)
+        _cast(self.hits, self.found, *self.grid.frame, eye, directions, ranges, *reaches)
 
     @property
     def solid(self) -> Mask:
@@ -83,26 +84,12 @@ class SearchMap:
 
     def solid_at(self, point: Point) -> bool:
         """Whether something stands at a point."""
-        row, column = self.cell(point)
+        row, column = self.grid.cell(point)
         return bool(self.hits[row, column] >= SOLID or self.walls[row, column])
 
     def has(self, bits: int) -> Mask:
         """Where cells were found to be that."""
         return np.asarray((self.found & bits) > 0)
-
-    def cell(self, point: Point) -> tuple[int, int]:
-        """The cell (row, column) of a point, the nearest one inside the map."""
-        rows, columns = self.hits.shape
-        column = round((point[0] - self.lower[0]) / self.settings.spacing)
-        row = round((point[1] - self.lower[1]) / self.settings.spacing)
-        return min(max(row, 0), rows - 1), min(max(column, 0), columns - 1)
-
-    def points(self, cells: NDArray[np.int64]) -> FloatArray:
-        """The middles of cells (row, column), shape (n, 2)."""
-        points: FloatArray = (
-            np.asarray(self.lower, np.float64) + self.settings.spacing * cells[:, ::-1]
-        )
-        return points
 
 
 def without_lost(ranges: FloatArray, range_max: float) -> FloatArray:

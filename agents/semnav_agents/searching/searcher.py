@@ -241,9 +241,9 @@ class Searcher:
     def _next_view(self, ways: Ways, pose: Pose) -> View | None:
         """The best view; smaller ones are tried before another room and before the end."""
         s, rooms = self._settings, self.chart.rooms
-        room = int(rooms[self.chart.cell(pose[:2])])
+        room = int(rooms[self.chart.grid.cell(pose[:2])])
         view = self._best(ways, pose, ViewGrid(s.candidate_spacing, s.rays))
-        if view is not None and (room < 0 or room == rooms[self.chart.cell(view.pose[:2])]):
+        if view is not None and (room < 0 or room == rooms[self.chart.grid.cell(view.pose[:2])]):
             return view
         fine = ViewGrid(s.fine_spacing, s.fine_rays, thorough=True)
         here = None if room < 0 else self._best(ways, pose, replace(fine, room=room))

@@ -115,7 +115,7 @@ def best_view(
         return None
     window = max(1, round(looker.half_angle / math.pi * rays))
     headings = math.tau * (np.arange(rays) + (window - 1) / 2) / rays
-    where = *chart.lower, s.spacing
+    where = chart.grid.frame
     eyes = _eyes(chart, grid)
     back = relative(looker.robot.lidar_mount, (0.0, 0.0, 0.0))
     seconds = _seconds(chart, ways, grid, pose, refused)
@@ -160,7 +160,7 @@ def _least_gains(chart: SearchMap, eyes: FloatArray, thorough: bool) -> FloatArr
     if thorough:
         seen = chart.rooms[chart.has(LOOKED) & ~chart.solid & (chart.rooms >= 0)]
         areas = s.spacing**2 * np.bincount(seen, minlength=int(chart.rooms.max()) + 1)
-        rooms = np.array([chart.rooms[chart.cell((x, y))] for x, y in eyes.tolist()])
+        rooms = np.array([chart.rooms[chart.grid.cell((x, y))] for x, y in eyes.tolist()])
         inside = rooms >= 0
         least[inside] = np.minimum(s.least_gain, s.least_share * areas[rooms[inside]])
     return least
@@ -169,7 +169,7 @@ def _least_gains(chart: SearchMap, eyes: FloatArray, thorough: bool) -> FloatArr
 def shown_from(chart: SearchMap, pose: Pose, looker: Looker) -> Mask:
     """The cells still to be looked at that a look from a pose of the robot ought to show."""
     seen, eye = np.zeros(chart.hits.shape, np.bool_), compose(pose, looker.robot.lidar_mount)
-    where = *chart.lower, chart.settings.spacing
+    where = chart.grid.frame
     wanted, solid = wanted_cells(chart), chart.solid
     mark_wanted(eye, looker.half_angle, wanted, solid, *where, looker.view_range, seen)
     return seen
@@ -189,7 +189,7 @@ def place_before(
     """
     s, (least, most) = chart.settings, chart.settings.person_range
     cells = np.argwhere(np.isfinite(ways.costs))
-    points = chart.points(cells)
+    points = chart.grid.points(cells)
     away = np.hypot(*(points - person).T)
     good = (away > least) & (away < most)
     for place in tried:
@@ -198,7 +198,7 @@ def place_before(
     size = looker.half_size(s.clearance)
     for x, y in points[good][order][:400].tolist():
         pose = x, y, math.atan2(person[1] - y, person[0] - x)
-        if not fits(pose, size, ways.room, *chart.lower, s.spacing):
+        if not fits(pose, size, ways.room, *chart.grid.frame):
             continue
         if ways.lead_to(*np.array(pose)[:, None]).all() and _sees(chart, (x, y), person):
             return pose
@@ -219,14 +219,14 @@ def _eyes(chart: SearchMap, grid: ViewGrid) -> FloatArray:
     lattice = np.zeros(chart.hits.shape, np.bool_)
     lattice[::step, ::step] = True
     lattice &= (chart.has(FREE) | (chart.rooms >= 0)) & ~chart.solid
-    return chart.points(np.argwhere(lattice))
+    return chart.grid.points(np.argwhere(lattice))
 
 
 def _seconds(
     chart: SearchMap, ways: Ways, grid: ViewGrid, pose: Pose, refused: Sequence[Circle]
 ) -> FloatArray:
     """Seconds that a look from each cell costs, other rooms dearer; infinite where none is."""
-    s, current = chart.settings, chart.rooms[chart.cell(pose[:2])]
+    s, current = chart.settings, chart.rooms[chart.grid.cell(pose[:2])]
     elsewhere = (chart.rooms != current) & (current >= 0)
     factor = np.where(elsewhere, s.other_room, 1.0)
     if grid.room is not None:
@@ -234,7 +234,7 @@ def _seconds(
     seconds = ways.costs / s.speed * factor + s.look_seconds
     rows, columns = np.ogrid[: seconds.shape[0], : seconds.shape[1]]
     for x, y, radius in refused:
-        row, column = chart.cell((x, y))
+        row, column = chart.grid.cell((x, y))
         near = (rows - row) ** 2 + (columns - column) ** 2 <= (radius / s.spacing) ** 2
         seconds[near] = np.inf
     return np.asarray(seconds)

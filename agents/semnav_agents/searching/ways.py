@@ -6,13 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
 
 from semnav_agents.searching.search_map import SAFE, Mask, SearchMap
 from semnav_env.robots import RobotSpec
-from semnav_env.world.maps.reach import Reach, reach_in_grid
+from semnav_env.world.grid.costs import costs_from
+from semnav_env.world.grid.distance import distance_to_marked
+from semnav_env.world.grid.poses import Reach, reach_in_grid
 from semnav_features.frames import FloatArray, Point, Pose
-from semnav_features.kernels.grid_search import least_costs
 
 COMFORT = 0.8
 """Distance from everything solid beyond which a way costs no more than its length, metres."""
@@ -59,18 +59,18 @@ def ways_from(
         half_width: of the robot, metres.
         body: and its pose, to ask where the whole of it can get to and turn; takes time.
     """
-    spacing, solid = chart.settings.spacing, chart.solid
-    room = spacing * distance_transform_edt(~solid)
+    spacing, solid = chart.grid.spacing, chart.solid
+    room = np.empty(solid.shape)
+    distance_to_marked(solid, spacing, room)
     passable = chart.has(SAFE) | (chart.rooms >= 0)
-    row, column = chart.cell(place)
+    row, column = chart.grid.cell(place)
     open_ = passable & (room > half_width)
     open_[max(row - 6, 0) : row + 7, max(column - 6, 0) : column + 7] |= ~solid[
         max(row - 6, 0) : row + 7, max(column - 6, 0) : column + 7
     ]
     near = np.clip(1.0 - room / COMFORT, 0.0, 1.0)
     weight = np.where(open_, 1.0 + CROWDING * near, np.inf)
-    source = np.array([[row, column]])
-    costs = least_costs(source, np.zeros(1), weight, spacing, spacing * math.sqrt(2), True)
+    costs = costs_from((row, column), weight, spacing)
     poses = None if body is None else reachable_poses(chart, solid | ~passable, *body)
     return Ways(costs, room, poses)
 
@@ -80,14 +80,10 @@ def reachable_poses(chart: SearchMap, blocked: Mask, robot: RobotSpec, pose: Pos
 
     The map's walls are thicker than the true ones: if it does not fit it is taken for smaller.
     """
-    blocked = blocked.copy()
-    blocked[:2] = blocked[-2:] = blocked[:, :2] = blocked[:, -2:] = True
-    where = chart.lower, chart.settings.spacing
+    cell = chart.grid.cell(pose[:2])
     for thinner in SHRUNK:
         size = robot.length - thinner, robot.width - thinner
-        area = reach_in_grid(
-            blocked, *where, size, HEADINGS, chart.cell(pose[:2]), math.tau, pose[2]
-        )
+        area = reach_in_grid(blocked, chart.grid, size, HEADINGS, cell, math.tau, pose[2])
         if area.cells.any():
             return area
     return None

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from semnav_agents.translating.files import BUNDLED_FOLDER, load_translator
+from semnav_agents.networks.card import BUNDLED_FOLDER
+from semnav_agents.translating.network import load_translator
 from semnav_agents.translating.support import TextSupport
 from semnav_agents.translating.translator import TranslatedText, Translation, translate
 from semnav_env.language.clauses import GoToDoor, Stop
@@ -66,7 +67,7 @@ class LearnedInterpreter:
     language: str | Language | None = None
     rooms: Sequence[str] = ()
     limits: DoubtLimits = DoubtLimits()
-    folder: Path = BUNDLED_FOLDER
+    folder: Path = BUNDLED_FOLDER / "translator"
 
     def interpret(self, text: str) -> Interpretation:
         """The reading that the grammar finds.
@@ -154,7 +155,7 @@ class LearnedInterpreter:
         return self._asked(text, tuple(each.command for each in likely))
 
     def _asked(self, text: str, found: tuple[Command, ...]) -> AmbiguousCommandError:
-        return AmbiguousCommandError(text, Question(found, self._spoken(text), self.rooms))
+        return AmbiguousCommandError(text, Question(found, self._spoken(text), self._read))
 
     def _others(self, text: str, known: Sequence[Command], count: int) -> tuple[Command, ...]:
         """The likeliest commands besides those that are known."""
@@ -187,6 +188,9 @@ class LearnedInterpreter:
         except CommandError:
             return None
         return found
+
+    def _read(self, text: str) -> Command:
+        return self.interpret(text).command
 
     def _spoken(self, text: str) -> Language:
         return language_of_text(text, self.language)

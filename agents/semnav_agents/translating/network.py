@@ -11,17 +11,27 @@ import math
 import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
+from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from semnav_agents.layers import layer_norm, linear, perceptron, softmax
+from semnav_agents.networks.card import BUNDLED_FOLDER, Card, TransformerSettings
+from semnav_agents.networks.layers import (
+    Array,
+    Shapes,
+    attention,
+    layer_norm,
+    linear,
+    linear_shapes,
+    norm_shapes,
+    perceptron,
+    perceptron_shapes,
+)
+from semnav_agents.networks.weights import load_weights
 from semnav_agents.translating.masking import MARKS
 from semnav_agents.translating.programs import END, START, SYMBOLS
-from semnav_features.checked_fields import Count, check_fields
-
-Array = NDArray[np.float32]
+from semnav_features.checked_fields import Count
 
 SHORTEST, LONGEST = 3, 5
 """Lengths of the n-grams, characters, with a sign for the word's ends."""
@@ -29,62 +39,42 @@ SHORTEST, LONGEST = 3, 5
 MAX_SYMBOLS = 48
 """The most symbols that are said; eight clauses need no more than that."""
 
-
 UNLIKELY = 7.0
 """A beginning whose probability is less than that of a whole by this power of e is given up."""
 
 
 @dataclass(frozen=True)
-class TranslatorShape:
-    """Sizes of the network.
+class TranslatorShape(TransformerSettings):
+    """Sizes of the network, whose width is that of a word inside.
 
     Attributes:
-        width: numbers of a word inside.
-        heads: of the attention.
-        layers: of the encoder, and of the decoder.
-        hidden: width of the perceptrons between.
         buckets: rows of the table of n-grams.
     """
 
-    width: Count = 64
-    heads: Count = 4
-    layers: Count = 2
-    hidden: Count = 128
+    KIND = "translator"
+
     buckets: Count = 4096
 
-    def __post_init__(self) -> None:
-        check_fields(self)
-        if self.width % self.heads:
-            raise ValueError(f"width is {self.width}; it must be a multiple of heads, {self.heads}")
-
-    def tensors(self) -> dict[str, tuple[int, ...]]:
+    def tensors(self) -> Shapes:
         """The shape of every tensor by name; weights are (outputs, inputs)."""
         d, h = self.width, self.hidden
-        shapes: dict[str, tuple[int, ...]] = {
+        shapes: Shapes = {
             "grams": (self.buckets, d),
             "marks": (MARKS, d),
             "symbols": (len(SYMBOLS), d),
         }
         for k in range(self.layers):
             for block in (f"encode.{k}", f"decode.{k}"):
-                shapes |= _block(f"{block}.self", d)
-                shapes |= _linear(f"{block}.feed.0", h, d) | _linear(f"{block}.feed.1", d, h)
-                shapes |= _norm(f"{block}.feed.norm", d)
+                shapes |= _block(f"{block}.self", d) | perceptron_shapes(f"{block}.feed", d, h, d)
+                shapes |= norm_shapes(f"{block}.feed.norm", d)
             shapes |= _block(f"decode.{k}.cross", d)
-        return shapes | _norm("encoded", d) | _norm("decoded", d) | _linear("say", len(SYMBOLS), d)
+        shapes |= norm_shapes("encoded", d) | norm_shapes("decoded", d)
+        return shapes | linear_shapes("say", d, len(SYMBOLS))
 
 
-def _linear(name: str, rows: int, columns: int) -> dict[str, tuple[int, ...]]:
-    return {f"{name}.weight": (rows, columns), f"{name}.bias": (rows,)}
-
-
-def _norm(name: str, width: int) -> dict[str, tuple[int, ...]]:
-    return {f"{name}.weight": (width,), f"{name}.bias": (width,)}
-
-
-def _block(name: str, d: int) -> dict[str, tuple[int, ...]]:
-    shapes = _norm(f"{name}.norm", d) | _linear(f"{name}.query", d, d)
-    return shapes | _linear(f"{name}.memory", 2 * d, d) | _linear(f"{name}.merge", d, d)
+def _block(name: str, d: int) -> Shapes:
+    shapes = norm_shapes(f"{name}.norm", d) | linear_shapes(f"{name}.query", d, d)
+    return shapes | linear_shapes(f"{name}.memory", d, 2 * d) | linear_shapes(f"{name}.merge", d, d)
 
 
 @lru_cache(maxsize=20_000)
@@ -180,19 +170,24 @@ class TranslatorNetwork:
     def _attend(
         self, name: str, x: Array, other: Array | None = None, causal: bool = False
     ) -> Array:
-        heads = self.shape.heads
-        plain = layer_norm(self.tensors, f"{name}.norm", x)
+        heads, plain = self.shape.heads, layer_norm(self.tensors, f"{name}.norm", x)
         memory = plain if other is None else other
-        query = (
-            linear(self.tensors, f"{name}.query", plain).reshape(len(x), heads, -1).swapaxes(0, 1)
-        )
+        queries = linear(self.tensors, f"{name}.query", plain).reshape(len(x), heads, -1)
         both = linear(self.tensors, f"{name}.memory", memory).reshape(len(memory), 2, heads, -1)
-        key, value = both.transpose(1, 2, 0, 3)
-        scores = query @ key.swapaxes(1, 2) / math.sqrt(query.shape[-1])
-        if causal:
-            scores = np.where(np.tri(len(x), dtype=bool), scores, -np.inf)
-        mixed = softmax(scores) @ value
-        return linear(self.tensors, f"{name}.merge", mixed.swapaxes(0, 1).reshape(len(x), -1))
+        mixed = attention(queries, both[:, 0], both[:, 1], causal)
+        return linear(self.tensors, f"{name}.merge", mixed)
 
     def _feed(self, name: str, x: Array) -> Array:
         return perceptron(self.tensors, name, layer_norm(self.tensors, f"{name}.norm", x))
+
+
+@cache
+def load_translator(folder: Path = BUNDLED_FOLDER / "translator") -> TranslatorNetwork:
+    """The network of a folder, of that which comes with the package by default; read once.
+
+    Raises:
+        ValueError: the files are not those of a translator, or not of this version.
+        OSError: they cannot be read.
+    """
+    shape = Card.read(folder, TranslatorShape).settings
+    return TranslatorNetwork(shape, load_weights(folder, shape.tensors()))

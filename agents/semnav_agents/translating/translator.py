@@ -6,8 +6,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from semnav_agents.networks.layers import Array
 from semnav_agents.translating.masking import MARK_SYMBOLS, MaskedText, masked
-from semnav_agents.translating.network import Array, TranslatorNetwork
+from semnav_agents.translating.network import TranslatorNetwork
 from semnav_agents.translating.programs import (
     REFUSE,
     UnsayableError,

@@ -11,10 +11,11 @@ import shapely
 
 from semnav_env.judge.episodes.fingerprint import fingerprint
 from semnav_env.robots import ROBOTS, WHEELCHAIR
+from semnav_env.world.grid.poses import Reach
 from semnav_env.world.maps import FloorPlan
 from semnav_env.world.maps.geodesic import Geodesic
 from semnav_env.world.maps.placement import sample_pose
-from semnav_env.world.maps.reach import Reach, reach
+from semnav_env.world.maps.reach import reach
 from semnav_features.frames import Point
 
 LARGEST_BODY = replace(

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from semnav_env.world.grid.costs import lowest_around, nearest_reached
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.maps.geodesic import Geodesic, WaysTo
 from semnav_features.frames import FloatArray, Point
 from semnav_features.kernels.compiling import kernel
-from semnav_features.kernels.grid_search import lowest_around
 
 PEOPLE_CLEARANCE = 0.3
 """Least distance of the ways of people from everything solid, metres: a little more than the radius
@@ -80,7 +80,8 @@ def look_ahead(
         A unit vector, or zeros at the goal and where no way is near; the way left, metres, which
         is then infinite.
     """
-    row, column = _nearest_cell(field, (y - south) / spacing, (x - west) / spacing)
+    near = (x - west) / spacing, (y - south) / spacing  # in cells
+    row, column = nearest_reached(field, 0.0, 0.0, 1.0, near[0], near[1], SEARCH_CELLS)
     if row < 0:
         return 0.0, 0.0, np.inf
     left = field[row, column]
@@ -89,18 +90,3 @@ def look_ahead(
     dx, dy = west + spacing * column - x, south + spacing * row - y
     length = math.hypot(dx, dy)
     return (dx / length, dy / length, left) if length > 1e-6 else (0.0, 0.0, left)
-
-
-@kernel(counts_references=True)
-def _nearest_cell(field: FloatArray, row: float, column: float) -> tuple[int, int]:
-    """The nearest cell from which there is a way; (-1, -1) if there is none near."""
-    best, found = np.inf, (-1, -1)
-    rows, columns = field.shape
-    middle_row, middle_column = round(row), round(column)
-    for r in range(middle_row - SEARCH_CELLS, middle_row + SEARCH_CELLS + 1):
-        for c in range(middle_column - SEARCH_CELLS, middle_column + SEARCH_CELLS + 1):
-            if 0 <= r < rows and 0 <= c < columns and field[r, c] < np.inf:
-                gap = (r - row) ** 2 + (c - column) ** 2
-                if gap < best:
-                    best, found = gap, (r, c)
-    return found

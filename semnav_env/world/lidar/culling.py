@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import OrderedDict
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 from weakref import WeakValueDictionary
@@ -25,6 +26,9 @@ NEAR = 3.5
 """Segments within this distance of a cell's centre, metres, come first in its list: drawn first,
 they hide many of the others."""
 
+MAX_KEPT_BYTES = 64_000_000
+"""How much memory lists take that nobody uses now: those of some 50 offices."""
+
 MAX_CULLING_CELLS = 10_000
 """Largest number of cells: it bounds the time that the lists of a plan take."""
 
@@ -46,6 +50,11 @@ class Culling:
     grid: np.ndarray
     starts: NDArray[np.int64]
     ends: FloatArray
+
+    @property
+    def size(self) -> int:
+        """Bytes of the lists."""
+        return self.starts.nbytes + self.ends.nbytes
 
     @property
     def arrays(self) -> tuple[np.ndarray, NDArray[np.int64], FloatArray]:
@@ -73,8 +82,28 @@ class Culling:
 
 
 Cullings: TypeAlias = WeakValueDictionary[tuple[bool, float], Culling]
-"""Those of a floor plan by whether they hold glass, and by their range, while one uses them: they
-take megabytes."""
+"""Those of a floor plan by whether they hold glass, and by their range, while one uses them or they
+are among the `Recent`."""
+
+
+class Recent:
+    """Keeps what was made last, whoever uses it: at most `MAX_KEPT_BYTES` in all."""
+
+    def __init__(self) -> None:
+        self._kept: OrderedDict[int, Culling] = OrderedDict()
+        self.bytes = 0
+
+    def keep(self, culling: Culling) -> None:
+        """Note that lists were asked for."""
+        if self._kept.pop(id(culling), None) is None:
+            self.bytes += culling.size
+        self._kept[id(culling)] = culling
+        while self.bytes > MAX_KEPT_BYTES and len(self._kept) > 1:
+            self.bytes -= self._kept.popitem(last=False)[1].size
+
+
+RECENT = Recent()
+"""Those of this process."""
 
 
 def shared_culling(floor_plan: FloorPlan, range_max: float, glass: bool) -> Culling:
@@ -90,6 +119,7 @@ def shared_culling(floor_plan: FloorPlan, range_max: float, glass: bool) -> Cull
     if culling is None:
         segments = floor_plan.segments if glass else floor_plan.opaque_segments
         known[glass, range_max] = culling = Culling.of(segments, range_max)
+    RECENT.keep(culling)
     return culling
 
 

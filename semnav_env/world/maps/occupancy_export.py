@@ -14,10 +14,10 @@ import yaml
 from numpy.typing import NDArray
 from PIL import Image
 
+from semnav_env.world.grid.occupancy import clear_near
 from semnav_env.world.maps.floor_plan import FloorPlan, Material
 from semnav_env.world.maps.importers.labels import ALL_DOORS, DOORS_FILE, PLACE_KINDS, PLACES_FILE
 from semnav_env.world.maps.importers.raster import MAX_PIXELS
-from semnav_env.world.maps.nearness import clear_near
 from semnav_env.world.maps.rules import FloorPlanError
 from semnav_features.frames import Point
 from semnav_features.writing import replacing, write_file

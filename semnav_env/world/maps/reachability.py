@@ -12,14 +12,15 @@ from shapely import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from semnav_env.robots import RobotSpec
+from semnav_env.world.grid.costs import costs_from
+from semnav_env.world.grid.poses import Reach
 from semnav_env.world.maps.doorways import DRAWING_TOLERANCE, clear_width
 from semnav_env.world.maps.floor_plan import FloorPlan, Material, PlanDoor, Region
 from semnav_env.world.maps.geodesic import GRID_SPACING
 from semnav_env.world.maps.plan_fault import PlanFault, point_in, written
-from semnav_env.world.maps.reach import HEADING_COUNT, REACH_SPACING, Reach, reach
+from semnav_env.world.maps.reach import HEADING_COUNT, REACH_SPACING, reach
 from semnav_env.world.maps.rules import FloorPlanError
 from semnav_features.frames import middle_of
-from semnav_features.kernels.grid_search import least_costs
 
 SEARCH_GRIDS = ((REACH_SPACING, HEADING_COUNT), (REACH_SPACING / 2, 2 * HEADING_COUNT))
 """Spacing, metres, and number of headings of each search; the finer one is for what the first one
@@ -145,8 +146,7 @@ def _farthest_apart(corridor: Polygon) -> Sequence[BaseGeometry]:
     weight = np.where(shapely.contains_xy(corridor, x, y), 1.0, np.inf)
     cell, ends = tuple(np.argwhere(roomy)[0]), []
     for _ in range(2):
-        source, diagonal = np.array([cell]), spacing * math.hypot(1, 1)
-        ways = least_costs(source, np.zeros(1), weight, spacing, diagonal, True)
+        ways = costs_from(cell, weight, spacing)
         ways[~roomy | ~np.isfinite(ways)] = -1.0
         cell = np.unravel_index(ways.argmax(), ways.shape)
         ends.append(Point(x[cell], y[cell]))

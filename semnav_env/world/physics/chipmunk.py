@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import platform
 import sys
 from functools import cache
@@ -90,7 +91,12 @@ def read_motion(record: np.ndarray, body: pymunk.Body) -> None:
 
 @cache
 def chipmunk_can_be_called() -> bool:
-    """Whether compiled code can call Chipmunk here, with the same results as through Pymunk."""
+    """Whether compiled code can call Chipmunk here, with the same results as through Pymunk.
+
+    `SEMNAV_PLAIN_PYMUNK=1` in the environment says that it shall not.
+    """
+    if os.environ.get("SEMNAV_PLAIN_PYMUNK") == "1":
+        return False
     if sys.platform == "win32" or platform.machine().lower() not in KNOWN_MACHINES:
         return False
     return _meet_a_wall(compiled=True) == _meet_a_wall(compiled=False)

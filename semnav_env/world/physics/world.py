@@ -26,6 +26,7 @@ from semnav_env.world.physics.contacts import Contacts, note_contacts
 from semnav_env.world.physics.drive import demand_velocity, drive, settle
 from semnav_env.world.physics.drive_record import drive_record
 from semnav_env.world.physics.free_motion import culling_around
+from semnav_env.world.physics.spare_spaces import SPARE_SPACES
 from semnav_features.frames import Contact, FloatArray, Pose, Twist
 from semnav_features.validation import finite_floats, shown
 
@@ -248,7 +249,12 @@ class World:
     def _build(self, start: Pose) -> None:
         """A space like a new one: episodes cannot influence each other."""
         last = self.__dict__.get("_space") if self.moving is None else None
-        self._space = vacant_space(self.still.segments, last)
+        if last is None and self.moving is None:
+            last = SPARE_SPACES.take(self.still)
+        space = vacant_space(self.still.segments, last)
+        if self.moving is None and "_space" not in self.__dict__:
+            SPARE_SPACES.give_when_gone(self, self.still, space)
+        self._space = space
         self._body, shape = robot_body(self.robot, start)
         self._control = pymunk.Body(body_type=pymunk.Body.KINEMATIC)
         joints = driving_joints(self.robot, self._control, self._body)

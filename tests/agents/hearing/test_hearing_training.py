@@ -10,13 +10,13 @@ torch = pytest.importorskip("torch", reason='needs the extra "rl"')
 
 from semnav_agents.base import steps  # noqa: E402
 from semnav_agents.hearing.agent import HearingAgent  # noqa: E402
-from semnav_agents.hearing.card import CARD_FILE, NETWORK_FILE, ModelCard  # noqa: E402
 from semnav_agents.hearing.learning import batches  # noqa: E402
 from semnav_agents.hearing.mirror import mirrored  # noqa: E402
 from semnav_agents.hearing.network import NetworkShape  # noqa: E402
 from semnav_agents.hearing.presets import HEARING_PRESETS, HearingRound  # noqa: E402
 from semnav_agents.hearing.training import HearingTrainer  # noqa: E402
-from semnav_agents.learning.files import load_tensors  # noqa: E402
+from semnav_agents.networks.card import CARD_FILE, Card  # noqa: E402
+from semnav_agents.networks.weights import WEIGHTS_FILE, load_tensors  # noqa: E402
 from semnav_agents.registry import make_agent  # noqa: E402
 from semnav_env.env import SemNavEnv  # noqa: E402
 from semnav_scripts import main as cli  # noqa: E402
@@ -45,7 +45,7 @@ def test_every_chunk_and_epoch_is_in_the_curve(trained):
         *((0, is_epoch) for is_epoch in (False, False, True, True)),
         *((1, is_epoch) for is_epoch in (False, True, True)),
     ]
-    assert ModelCard.read(folder).curve == rows
+    assert Card.read(folder, NetworkShape).curve == rows
     assert all(np.isfinite(row["loss"]) for row in rows if "epoch" in row)
 
 
@@ -62,18 +62,18 @@ def test_interrupted_training_ends_as_an_uninterrupted_one(trained, tmp_path):
         trainer = HearingTrainer(TINY, tmp_path, seed=0)
         for _ in trainer.advance():
             break
-    whole, parts = (load_tensors(folder / NETWORK_FILE) for folder in (trained[0], tmp_path))
+    whole, parts = (load_tensors(folder / WEIGHTS_FILE) for folder in (trained[0], tmp_path))
     assert all(np.array_equal(whole[name], parts[name]) for name in whole)
 
 
 def test_kill_between_state_and_card_loses_nothing(trained, tmp_path):
     shutil.copytree(trained[0], tmp_path, dirs_exist_ok=True)
-    card = ModelCard.read(tmp_path)
+    card = Card.read(tmp_path, NetworkShape)
     card.curve.pop()
     card.write(tmp_path)
     assert list(HearingTrainer(TINY, tmp_path, seed=0).advance()) == []
-    assert len(ModelCard.read(tmp_path).curve) == len(trained[1])
-    before, after = (load_tensors(folder / NETWORK_FILE) for folder in (trained[0], tmp_path))
+    assert len(Card.read(tmp_path, NetworkShape).curve) == len(trained[1])
+    before, after = (load_tensors(folder / WEIGHTS_FILE) for folder in (trained[0], tmp_path))
     assert all(np.array_equal(before[name], after[name]) for name in before)
 
 
@@ -112,7 +112,7 @@ def test_command_line_trains_and_goes_on(monkeypatch, tmp_path, capsys):
     [
         ("{", "not JSON"),
         ("[]", "format"),
-        ('{"format": 1}', "shape"),
+        ('{"format": 3}', "network"),
         ('{"format": 2}', "format 2"),
     ],
 )

@@ -5,12 +5,11 @@ from dataclasses import replace
 
 import pytest
 
-pytest.importorskip("safetensors", reason='needs the extra "rl"')
-
 from semnav_agents.base import steps
-from semnav_agents.hearing.agent import BUNDLED_FOLDER, HearingAgent, hearing_names
-from semnav_agents.hearing.card import ModelCard
+from semnav_agents.hearing.agent import HearingAgent, hearing_names
+from semnav_agents.hearing.network import NetworkShape
 from semnav_agents.learned import agent_label
+from semnav_agents.networks.card import BUNDLED_FOLDER, Card
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import load_episodes
@@ -54,12 +53,12 @@ def test_it_observes_neither_goal_nor_clause():
 def test_every_bundled_card_has_its_curve_and_limits():
     assert "listener" in hearing_names()
     for name in hearing_names():
-        card = ModelCard.read(BUNDLED_FOLDER / name)
+        card = Card.read(BUNDLED_FOLDER / name, NetworkShape)
         assert card.curve
         assert {"data", "results", "limits"} <= card.notes.keys()
 
 
 def test_its_results_are_named_by_preset_and_seed(tmp_path):
     assert agent_label("listener") == {"agent": "listener", "training_seed": 0}
-    replace(ModelCard.read(BUNDLED_FOLDER / "listener"), seed=3).write(tmp_path)
+    replace(Card.read(BUNDLED_FOLDER / "listener", NetworkShape), seed=3).write(tmp_path)
     assert agent_label(str(tmp_path)) == {"agent": "listener", "training_seed": 3}

@@ -1,4 +1,4 @@
-"""Case 13: episodes carry their programs and tokens, so that nothing is parsed."""
+"""Episodes carry their programs and tokens, so that nothing is parsed."""
 
 from __future__ import annotations
 

@@ -75,12 +75,13 @@ def test_a_first_scan_without_any_return_is_taken(value: float) -> None:
 
 
 def test_it_needs_nothing_of_the_simulator(drive, tmp_path: Path) -> None:
-    """In a process in which the simulator's modules cannot be imported."""
+    """In a process that does nothing else; this one has loaded the simulator."""
     record, believed = drive
     (tmp_path / "record.pickle").write_bytes(pickle.dumps(record))
     command = [sys.executable, "-m", "tests.support.robots_side", str(tmp_path / "record.pickle")]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
-    assert json.loads(done.stdout) == believed
+    assert json.loads(done.stdout) == [believed, []]
+    assert {"pymunk", "semnav_env.env", "semnav_env.world"} <= {*robots_side.simulator_loaded()}
 
 
 def test_bumps_are_part_of_what_is_recorded() -> None:

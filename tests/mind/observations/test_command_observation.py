@@ -1,4 +1,4 @@
-"""Case 14: what a policy gets that hears the command itself."""
+"""What a policy gets that hears the command itself."""
 
 from __future__ import annotations
 

@@ -184,10 +184,8 @@ def test_where_a_body_reaches_it_fits_in_some_heading(seed: int) -> None:
     plan = room_at_a_corridor(1.0, *things)
     way = reach(plan, WHEELCHAIR.length, WHEELCHAIR.width)
     solid = shapely.union_all([LineString(surface.points) for surface in plan.surfaces])
-    rows, columns = np.nonzero(way.cells)
-    for i in rng.integers(len(rows), size=20):
-        x = way.origin[0] + way.spacing * columns[i]
-        y = way.origin[1] + way.spacing * rows[i]
+    points = way.grid.points(np.argwhere(way.cells))
+    for x, y in points[rng.integers(len(points), size=20)].tolist():
         headings = np.linspace(0, math.pi, 12, endpoint=False)
         bodies = [footprint(WHEELCHAIR, (x, y, heading)) for heading in headings]
         assert any(not body.intersects(solid) for body in bodies)

@@ -163,7 +163,7 @@ def test_a_command_may_name_every_room(seed: int, name: str) -> None:
 
 @every_distribution
 def test_an_environment_runs_in_a_generated_office(name: str) -> None:
-    env = gym.make("semnav_env:SemNav-v0", floor_plan=f"office:{name}:3", disable_env_checker=True)
+    env = gym.make("semnav_env:SemNav-v0", floor_plan=f"office:{name}:3")
     observation, _ = env.reset(seed=0)
     assert env.observation_space.contains(observation)
     for _ in range(5):

@@ -96,12 +96,8 @@ def test_geodesics_of_one_plan_are_shared_and_their_fields_kept() -> None:
 
 @given(x=st.floats(-3.0, 33.0), y=st.floats(-3.0, 27.0))
 def test_the_nearest_free_cell_is_found(x: float, y: float) -> None:
-    rows, columns = np.nonzero(GEODESIC.free)
-    dx, dy = GEODESIC.origin[0] + GRID_SPACING * columns - x, GEODESIC.origin[1] - y
-    nearest = int(np.argmin(dx * dx + (dy + GRID_SPACING * rows) ** 2))
+    away = np.hypot(*(GEODESIC.grid.points(np.argwhere(GEODESIC.free)) - (x, y)).T)
     found = GEODESIC._cell((x, y))
-    gap = math.dist(
-        (x, y), [o + GRID_SPACING * k for o, k in zip(GEODESIC.origin, found[::-1], strict=True)]
-    )
+    gap = math.dist((x, y), GEODESIC.grid.points(np.array([found]))[0])
     assert GEODESIC.free[found]
-    assert gap == pytest.approx(math.hypot(dx[nearest], dy + GRID_SPACING * rows[nearest]))
+    assert gap == pytest.approx(away.min())

@@ -1,5 +1,4 @@
 """The PPO of RLlib with the settings of a preset."""
-# pyright: reportMissingImports=false
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
 """Ray on this machine or a cluster, and kernels that are compiled once on each of its machines."""
-# pyright: reportMissingImports=false
 
 from __future__ import annotations
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from semnav_agents.learning.files import AgentDescription, load_tensors
+from semnav_agents.learning.policy import PolicySettings
 from semnav_agents.learning.presets import Preset
 from semnav_agents.learning.rllib.options import RayOptions
-from semnav_agents.learning.rllib.weights import RLLIB_FILE, Tensors
+from semnav_agents.learning.rllib.weights import RLLIB_FILE
+from semnav_agents.networks.card import Card
+from semnav_agents.networks.weights import Tensors, load_tensors
 
 if TYPE_CHECKING:  # Ray is optional
     from semnav_agents.learning.rllib.trainer import RayTrainer
@@ -55,14 +57,14 @@ def start_training(
     return RayTrainer.resume(preset, folder, options, *saved)
 
 
-def _saved(preset: Preset, folder: Path) -> tuple[AgentDescription, Tensors]:
+def _saved(preset: Preset, folder: Path) -> tuple[Card[PolicySettings], Tensors]:
     """What a folder holds of an earlier training on Ray."""
-    description = AgentDescription.read(folder)
-    if description.preset != preset.plain():
+    card = Card.read(folder, PolicySettings)
+    if card.preset != preset.plain():
         raise ValueError(
             f"{folder} was trained with another preset than the present {preset.name!r}; "
             "start anew with another --out"
         )
     if not (folder / RLLIB_FILE).is_file():
         raise ValueError(f"{folder} was not trained with --engine ray: no {RLLIB_FILE} in it")
-    return description, load_tensors(folder / RLLIB_FILE)
+    return card, load_tensors(folder / RLLIB_FILE)

@@ -1,5 +1,4 @@
 """Training by RLlib's PPO on the machines of a Ray cluster."""
-# pyright: reportMissingImports=false
 
 from __future__ import annotations
 
@@ -15,12 +14,8 @@ import torch
 from ray.rllib.core import DEFAULT_MODULE_ID
 from torch.utils.tensorboard import SummaryWriter
 
-from semnav_agents.learning.files import (
-    CURVES_FOLDER,
-    AgentDescription,
-    save_agent,
-    save_tensors,
-)
+from semnav_agents.learning.files import CURVES_FOLDER, save_agent
+from semnav_agents.learning.policy import PolicySettings
 from semnav_agents.learning.presets import Preset
 from semnav_agents.learning.reports import Preparation, TrainingReport
 from semnav_agents.learning.rllib.algorithm import MEASURES, build_algorithm
@@ -29,11 +24,12 @@ from semnav_agents.learning.rllib.weights import (
     RLLIB_FILE,
     Moments,
     RLlibState,
-    Tensors,
     Weights,
     beginning,
     policy_from,
 )
+from semnav_agents.networks.card import Card
+from semnav_agents.networks.weights import Tensors, save_tensors
 
 SAMPLED = "num_env_steps_sampled_lifetime"
 """RLlib's name for the number of decisions of all runners."""
@@ -69,7 +65,7 @@ class RayTrainer:
         preset: Preset,
         folder: Path,
         options: RayOptions,
-        description: AgentDescription,
+        card: Card[PolicySettings],
         tensors: Tensors,
     ) -> RayTrainer:
         """Continue a training.
@@ -81,13 +77,13 @@ class RayTrainer:
             preset: what to learn.
             folder: of the training.
             options: in how many processes robots are driven.
-            description: of the agent in the folder.
+            card: of the agent in the folder.
             tensors: of the file `RLLIB_FILE` in the folder.
 
         Raises:
             ValueError: the tensors do not fit the preset.
         """
-        trainer = cls(preset, folder, description.seed, options, description.steps)
+        trainer = cls(preset, folder, card.seed, options, card.settings.steps)
         try:
             trainer._put(RLlibState.from_tensors(tensors, trainer._weights()))
         except ValueError as error:

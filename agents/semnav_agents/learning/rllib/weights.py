@@ -8,10 +8,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_agents.learning.policy import Policy, check_tensors
+from semnav_agents.learning.policy import Policy
+from semnav_agents.networks.adam import adam_moments, adam_shapes, adam_tensors
+from semnav_agents.networks.weights import Tensors, check_tensors, pop_count
 
 Weights = Mapping[str, NDArray[np.float32]]
-Tensors = dict[str, NDArray[Any]]
 Moments = Mapping[int, Mapping[str, Any]]
 
 RLLIB_FILE = "rllib.safetensors"
@@ -23,9 +24,6 @@ ACTOR, ACTION, LOG_STD = "encoder.actor_encoder.net.mlp.", "pi.net.mlp.", "pi.lo
 STEPS_NAME, WEIGHT_PREFIX, ADAM_PREFIX = "steps", "weights.", "adam."
 """Name of the number of decisions; first parts of the names of weights and of Adam's tensors."""
 
-ADAM_MOMENTS = ("step", "exp_avg", "exp_avg_sq")
-"""What Adam keeps for each parameter."""
-
 
 def policy_from(weights: Weights, hidden: int) -> Policy:
     """The part of RLlib's weights that gives the mean action.
@@ -35,10 +33,8 @@ def policy_from(weights: Weights, hidden: int) -> Policy:
         hidden: number of hidden layers.
     """
     names = [f"{ACTOR}{2 * i}" for i in range(hidden)] + [f"{ACTION}0"]
-    return Policy(
-        tuple(weights[f"{name}.weight"].copy() for name in names),
-        tuple(weights[f"{name}.bias"].copy() for name in names),
-    )
+    parts = [(weights[f"{name}.weight"], weights[f"{name}.bias"]) for name in names]
+    return Policy.of_layers([(weight.copy(), bias.copy()) for weight, bias in parts])
 
 
 def beginning(weights: Weights, log_std: float) -> Weights:
@@ -73,11 +69,9 @@ class RLlibState(NamedTuple):
         """The state as named tensors."""
         named: Tensors = {STEPS_NAME: np.array(self.steps, np.int64)}
         named |= {WEIGHT_PREFIX + name: weight for name, weight in self.weights.items()}
-        for i, moments in self.adam.items():
-            name = _parameters(self.weights)[i]
-            for moment in ADAM_MOMENTS:
-                named[f"{ADAM_PREFIX}{name}.{moment}"] = np.asarray(moments[moment], np.float32)
-        return named
+        names = _parameters(self.weights)
+        moments = {names[i]: each for i, each in self.adam.items()}
+        return named | adam_tensors(ADAM_PREFIX, moments)
 
     @classmethod
     def from_tensors(cls, tensors: Mapping[str, NDArray[Any]], weights: Weights) -> RLlibState:
@@ -91,23 +85,14 @@ class RLlibState(NamedTuple):
             ValueError: a tensor is missing, too many, of another shape or type, or not finite.
         """
         rest = dict(tensors)
-        steps = rest.pop(STEPS_NAME, None)
-        if steps is None or steps.shape != () or steps.dtype != np.int64 or steps < 0:
-            raise ValueError(
-                f"tensor {STEPS_NAME!r} must be one whole number of 64 bits, at least 0"
-            )
+        steps = pop_count(rest, STEPS_NAME)
         learned = any(name.startswith(ADAM_PREFIX) for name in rest)
         names = _parameters(weights) if learned else []
         shapes = {WEIGHT_PREFIX + name: weight.shape for name, weight in weights.items()}
-        for name in names:
-            shapes[f"{ADAM_PREFIX}{name}.step"] = ()
-            shapes |= {f"{ADAM_PREFIX}{name}.{m}": weights[name].shape for m in ADAM_MOMENTS[1:]}
+        shapes |= adam_shapes(ADAM_PREFIX, {name: weights[name].shape for name in names})
         check_tensors(rest, shapes)
-        adam = {
-            i: {moment: rest[f"{ADAM_PREFIX}{name}.{moment}"] for moment in ADAM_MOMENTS}
-            for i, name in enumerate(names)
-        }
-        return cls({name: rest[WEIGHT_PREFIX + name] for name in weights}, adam, int(steps))
+        adam = dict(enumerate(adam_moments(ADAM_PREFIX, rest, names).values()))
+        return cls({name: rest[WEIGHT_PREFIX + name] for name in weights}, adam, steps)
 
 
 def _parameters(weights: Weights) -> list[str]:

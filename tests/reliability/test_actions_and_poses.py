@@ -1,4 +1,4 @@
-"""Case 4: actions and poses that are no numbers are refused, one by one and in vectors."""
+"""Actions and poses that are no numbers are refused, one by one and in vectors."""
 
 from __future__ import annotations
 

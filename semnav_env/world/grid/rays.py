@@ -1,4 +1,4 @@
-"""Marks the cells of a grid that lie in a field of view."""
+"""The cells of a grid that the rays of a sensor pass through: what is in view."""
 
 from __future__ import annotations
 

@@ -1,6 +1,13 @@
-"""Numba kernels that find the cheapest ways over a grid of cells with eight neighbours each."""
+"""The cheapest ways over a grid of cells with eight neighbours each.
+
+`scipy.sparse.csgraph.dijkstra` gives the same costs to the last bit, in 7 to 11 times the processor
+time without that of making its graph: 24 instead of 3.1 ms on office:large:1, 8.3 instead of 1.1 ms
+on office_cross (`python -m studies grids`).
+"""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +21,18 @@ NEIGHBOURS = np.array([(j, i) for j in (-1, 0, 1) for i in (-1, 0, 1) if (j, i) 
 ROUND = 2.0
 """Cells that are reached within the cost of so many straight steps are worked on together: fewer
 make many rounds, more let cells be worked on again and again. It changes no result."""
+
+
+def costs_from(cell: tuple[int, int], weight: FloatArray, spacing: float) -> FloatArray:
+    """The least cost of the way between a cell (row, column) and each other, see `least_costs`.
+
+    Args:
+        cell: where ways begin, or lead to: they cost the same in both directions.
+        weight: cost of a metre of way in each cell, shape (rows, columns).
+        spacing: of the cells, metres.
+    """
+    diagonal = spacing * math.sqrt(2.0)
+    return least_costs(np.array([cell]), np.zeros(1), weight, spacing, diagonal, True)
 
 
 @kernel(counts_references=True)
@@ -133,3 +152,63 @@ def descent(field: FloatArray, row: int, column: int, max_cells: int) -> NDArray
     for k in range(len(cells)):
         out[k] = cells[k]
     return out
+
+
+ANYWHERE = 1_000_000
+"""As `within` of `nearest_reached`: more cells than a grid has rows or columns."""
+
+
+@kernel
+def nearest_reached(
+    field: FloatArray,
+    west: float,
+    south: float,
+    spacing: float,
+    x: float,
+    y: float,
+    within: int,
+) -> tuple[int, int]:
+    """The nearest cell (row, column) with a finite cost, the first of those equally near.
+
+    It is sought in a square of cells, which grows until nothing outside it can be nearer.
+
+    Args:
+        field: costs, shape (rows, columns).
+        west: x of the first column, metres.
+        south: y of the first row, metres.
+        spacing: of the cells, metres.
+        x: of the point, metres.
+        y: of the point, metres.
+        within: cells that the square may reach to each side.
+
+    Returns:
+        (-1, -1) if there is none within reach.
+    """
+    rows, columns = field.shape
+    row, column = round((y - south) / spacing), round((x - west) / spacing)
+    half = min(2, within)
+    while True:
+        best, found = np.inf, (-1, -1)
+        for r in range(max(row - half, 0), min(row + half + 1, rows)):
+            for c in range(max(column - half, 0), min(column + half + 1, columns)):
+                dx, dy = west + spacing * c - x, south + spacing * r - y
+                if field[r, c] < np.inf and dx * dx + dy * dy < best:
+                    best, found = dx * dx + dy * dy, (r, c)
+        everything = max(row, rows - row, column, columns - column) <= half
+        if everything or half >= within or math.sqrt(best) < (half - 1) * spacing:
+            return found
+        half = min(2 * half, within)
+
+
+@kernel
+def cost_at(
+    field: FloatArray, west: float, south: float, spacing: float, x: float, y: float
+) -> float:
+    """The cost at a point by way of the best of the nearest nine cells, metres."""
+    row, column = round((y - south) / spacing), round((x - west) / spacing)
+    best = np.inf
+    for r in range(max(row - 1, 0), min(row + 2, field.shape[0])):
+        for c in range(max(column - 1, 0), min(column + 2, field.shape[1])):
+            dx, dy = west + spacing * c - x, south + spacing * r - y
+            best = min(best, field[r, c] + math.sqrt(dx * dx + dy * dy))
+    return best

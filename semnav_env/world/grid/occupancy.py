@@ -1,4 +1,4 @@
-"""Numba kernel that finds the cells of a grid that lie near what is solid."""
+"""The cells of a grid that something solid passes through, or comes near."""
 
 from __future__ import annotations
 
@@ -52,3 +52,28 @@ def clear_near(
                 share = min(1.0, max(0.0, (x * dx + y * dy) / squared)) if squared > 0.0 else 0.0
                 if math.hypot(x - share * dx, y - share * dy) < reach:
                     free[row, column] = False
+
+
+@kernel
+def mark_segments(
+    marked: NDArray[np.bool_], segments: FloatArray, west: float, south: float, spacing: float
+) -> None:
+    """Mark the cells that segments pass through; they are sampled eight times a cell.
+
+    Args:
+        marked: written, shape (rows, columns); row 0 is the southernmost.
+        segments: x1, y1, x2, y2, shape (n, 4), metres.
+        west: x of the first column, metres.
+        south: y of the first row, metres.
+        spacing: spacing of the grid, metres.
+    """
+    rows, columns = marked.shape
+    for i in range(len(segments)):
+        x1, y1 = (segments[i, 0] - west) / spacing, (segments[i, 1] - south) / spacing
+        x2, y2 = (segments[i, 2] - west) / spacing, (segments[i, 3] - south) / spacing
+        steps = max(1, math.ceil(8.0 * math.hypot(x2 - x1, y2 - y1)))
+        for k in range(steps + 1):
+            row = round(y1 + (y2 - y1) * k / steps)
+            column = round(x1 + (x2 - x1) * k / steps)
+            if 0 <= row < rows and 0 <= column < columns:
+                marked[row, column] = True

@@ -1,4 +1,4 @@
-"""Case 6: everything that is written goes through one writer, which never loses what was there."""
+"""Everything that is written goes through one writer, which never loses what was there."""
 
 from __future__ import annotations
 

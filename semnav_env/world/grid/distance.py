@@ -1,10 +1,16 @@
-"""The exact Euclidean distance transform of a square grid.
+"""The exact Euclidean distance transform of a grid.
 
 P. Felzenszwalb, D. Huttenlocher, Distance Transforms of Sampled Functions, Theory of Computing 8
 (2012): the lower envelope of parabolas, once along the rows and once along the columns.
+
+`scipy.ndimage.distance_transform_edt` gives the same distances to the last bit, in 3 to 4 times the
+processor time: 9.1 instead of 2.7 ms on office:large:1, 2.8 instead of 0.7 ms on office_cross
+(`python -m studies grids`).
 """
 
 from __future__ import annotations
+
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,36 +23,40 @@ NO_MARKED_CELL = 1e12
 
 
 @kernel(counts_references=True)
-def distance_to_marked(marked: NDArray[np.bool_], cell: float) -> NDArray[np.float32]:
-    """Distance from each cell's centre to the nearest marked cell's centre, metres, (n, n)."""
-    n = marked.shape[0]
-    squared = np.empty((n, n))
-    place, edge = np.empty(n, dtype=np.int64), np.empty(n + 1)
+def distance_to_marked(marked: NDArray[np.bool_], cell: float, distance: NDArray[Any]) -> None:
+    """Write the distance from each cell's middle to that of the nearest marked cell, metres.
+
+    Args:
+        marked: shape (rows, columns).
+        cell: side of a cell, metres.
+        distance: written, shape (rows, columns); infinite where no cell is marked.
+    """
+    rows, columns = marked.shape
+    squared = np.empty((rows, columns))
+    place, edge = np.empty(columns, dtype=np.int64), np.empty(columns + 1)
     _along_columns(marked, squared)
-    row = np.empty(n)
-    distance = np.empty((n, n), dtype=np.float32)
-    for j in range(n):
+    row = np.empty(columns)
+    for j in range(rows):
         row[:] = squared[j]
         _lower_envelope(row, place, edge, squared[j])
-        for i in range(n):
+        for i in range(columns):
             distance[j, i] = (
                 cell * np.sqrt(squared[j, i]) if squared[j, i] < NO_MARKED_CELL / 2 else np.inf
             )
-    return distance
 
 
 @kernel(counts_references=True)
 def _along_columns(marked: NDArray[np.bool_], squared: FloatArray) -> None:
     """Squared distance to the nearest marked cell of the same column: two sweeps."""
-    n = marked.shape[0]
-    steps = np.full(n, 1e6)
-    for j in range(n):
-        for i in range(n):
+    rows, columns = marked.shape
+    steps = np.full(columns, 1e6)
+    for j in range(rows):
+        for i in range(columns):
             steps[i] = 0.0 if marked[j, i] else steps[i] + 1.0
             squared[j, i] = steps[i]
     steps[:] = 1e6
-    for j in range(n - 1, -1, -1):
-        for i in range(n):
+    for j in range(rows - 1, -1, -1):
+        for i in range(columns):
             steps[i] = 0.0 if marked[j, i] else steps[i] + 1.0
             squared[j, i] = min(squared[j, i], steps[i]) ** 2
 

@@ -1,0 +1,67 @@
+"""Networks as they are trained: parameters by the names of the files, and the layers, in torch."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor, nn
+from torch.nn import functional
+
+from semnav_agents.networks.layers import EPSILON, Shapes
+
+Draw = Callable[[str, tuple[int, ...], torch.Generator], Tensor]
+"""Draws the first values of a matrix, by its name and shape."""
+
+
+class TorchNetwork(nn.Module):
+    """A network with named parameters; biases begin at 0, and norms change nothing at first.
+
+    Args:
+        shapes: of the parameters by name; they have these names with "_" for ".".
+        draw: the first values of the matrices.
+        seed: of what is drawn.
+    """
+
+    def __init__(self, shapes: Shapes, draw: Draw, seed: int) -> None:
+        super().__init__()
+        self._names = tuple(shapes)
+        generator = torch.Generator().manual_seed(seed)
+        for name, shape in shapes.items():
+            if name.endswith("bias"):
+                first = torch.zeros(shape)
+            else:
+                first = draw(name, shape, generator) if len(shape) > 1 else torch.ones(shape)
+            self.register_parameter(_flat(name), nn.Parameter(first))
+
+    def named(self) -> dict[str, Tensor]:
+        """The parameters by the names of the files."""
+        return {name: self.of(name) for name in self._names}
+
+    def arrays(self) -> dict[str, NDArray[np.float32]]:
+        """Copies of the parameters as arrays, as the network in NumPy takes them."""
+        return {name: tensor.detach().numpy().copy() for name, tensor in self.named().items()}
+
+    def of(self, name: str) -> Tensor:
+        """The parameter of a name."""
+        found: Tensor = getattr(self, _flat(name))
+        return found
+
+    def linear(self, name: str, x: Tensor) -> Tensor:
+        """As `layers.linear`."""
+        return functional.linear(x, self.of(f"{name}.weight"), self.of(f"{name}.bias"))
+
+    def perceptron(self, name: str, x: Tensor) -> Tensor:
+        """As `layers.perceptron`."""
+        return self.linear(f"{name}.1", self.linear(f"{name}.0", x).relu())
+
+    def norm(self, name: str, x: Tensor) -> Tensor:
+        """As `layers.layer_norm`."""
+        weight, bias = self.of(f"{name}.weight"), self.of(f"{name}.bias")
+        return functional.layer_norm(x, tuple(weight.shape), weight, bias, EPSILON)
+
+
+def _flat(name: str) -> str:
+    return "p_" + name.replace(".", "_")

@@ -1,0 +1,34 @@
+"""Results of episodes made by hand, and an agent that fails."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from semnav_agents.evaluation import Result
+from semnav_env.judge.metrics import METRIC_NAMES, Metrics
+from semnav_env.robots import RobotSpec
+
+NOTHING = Metrics(**dict.fromkeys(METRIC_NAMES, 0))
+
+
+def result(success: bool, collisions: int = 0, seed: int = 0, rechecked: str = "") -> Result:
+    verdict, cause = ("done", "") if success else ("wrong door", "crossed a, wanted b")
+    measured = replace(
+        NOTHING, success=success, collisions=collisions, contact_free=collisions == 0, spl=success
+    )
+    return Result("stop", seed, (verdict,), measured, cause, rechecked)
+
+
+class Statue:
+    """Stands still."""
+
+    observation = "truth"
+
+    def reset(self, info: dict[str, Any]) -> None:
+        self.action = np.zeros(RobotSpec(**info["robot"]).action_size, dtype=np.float32)
+
+    def act(self, observation: dict[str, Any]) -> np.ndarray:
+        return self.action
