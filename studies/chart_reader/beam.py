@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any, NamedTuple, TypeAlias
 
 from studies.chart_reader.chart import Chart
-from studies.chart_reader.features import Features, features, merged
+from studies.chart_reader.features import Features, merged
 from studies.chart_reader.frames import LIGHT, fitting
 from studies.chart_reader.lexicon import table_rows
 
@@ -339,5 +339,3 @@ def tags_of(trace: Trace | None) -> dict[str, float]:
             found[tag] = found.get(tag, 0.0) + 1.0
         trace = trace.before
     return found
-
-

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from semnav_agents.translating.files import load_translator
 from semnav_agents.translating.interpreter import DoubtLimits
+from semnav_agents.translating.network import load_translator
 from semnav_agents.translating.translator import translate
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import meaning_of, normal
