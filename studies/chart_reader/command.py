@@ -73,8 +73,8 @@ class Arguments:
         trainer = Trainer([*examples, *sampled_examples(self.sampled, code)])
         chances = left_out_chances(trainer)
         limits = chosen_limits(examples, chances)
-        found = sum(any(e.right[:-1]) for e in examples if e.sentence.kind == "feasible")
-        title = f"chart, author left out, acts from {limits.act:g} ({found} among the candidates)"
+        there = sum(any(e.right[:-1]) for e in examples if e.sentence.kind == "feasible")
+        title = f"chart, author left out, acts from {limits.act:g} ({there} among the candidates)"
         _print(name, "1 to 6", title, counted(examples, chances, limits))
         self._compare(name, "1 to 6", files)
         learned = trainer.train(_unambiguous(trainer.examples))

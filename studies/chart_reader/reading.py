@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from semnav_agents.translating.interpreter import DoubtLimits
 from semnav_agents.translating.network import load_translator
@@ -101,7 +102,8 @@ def understand(
         return first.command
     asked = tuple(each.command for each in reading.ranked[:2])
     spoken = language_of(language) if language else language_of_text(text, None)
-    raise AmbiguousCommandError(text, Question(asked, spoken, tuple(rooms)))
+    again = partial(understand, language=language, rooms=rooms, limits=limits)
+    raise AmbiguousCommandError(text, Question(asked, spoken, again))
 
 
 LEAST_CONFIRMED = 0.5

@@ -10,6 +10,7 @@ import pytest
 from semnav_env.language import Command, Distance, DoorReference, Follow, GoToDoor, GoToRoom, parse
 from semnav_env.language.corpora import Sentence
 from semnav_env.language.corpora.notation import read_meaning
+from semnav_env.language.question import AmbiguousCommandError
 from semnav_env.language.references import Side
 from studies.chart_reader.chart import Chart, grammar_of
 from studies.chart_reader.edits import replaced
@@ -171,11 +172,6 @@ def test_probabilities_of_a_reading_and_of_none_add_up() -> None:
     assert reading.ranked[0].command == understand("go through the second door on the left", "en")
 
 
-def _example(text: str, meaning: str) -> object:
-    sentence = Sentence("1", text, "feasible", (read_meaning(meaning),), "", "a")
-    return example_of(sentence, "en", (), "a")
-
-
 def test_training_makes_the_right_candidates_likelier() -> None:
     texts = {"take the second left": "turn left at turning#2", "second left": "door(2,left)"}
     examples = [
@@ -208,3 +204,11 @@ def test_a_reading_is_acted_on_only_from_the_limit_on() -> None:
     assert outcome_of(example, chances, Limits(act=0.7)) == "understood"
     assert outcome_of(example, chances, Limits(act=0.8)) == "asked"
     assert outcome_of(example, chances[::-1], Limits(act=0.7)) in ("refused", "misread")
+
+
+def test_a_question_has_the_two_likeliest_readings() -> None:
+    text = "take the second left"
+    with pytest.raises(AmbiguousCommandError) as caught:
+        understand(text, "en", limits=Limits(act=1.01))
+    ranked = [each.command for each in read(text, "en").ranked]
+    assert list(caught.value.question.readings) == ranked[:2]
