@@ -14,7 +14,7 @@ from semnav_env.language.question import AmbiguousCommandError
 from semnav_env.language.references import Side
 from studies.chart_reader.chart import Chart, grammar_of
 from studies.chart_reader.edits import replaced
-from studies.chart_reader.examples import example_of
+from studies.chart_reader.examples import Example, example_of
 from studies.chart_reader.features import features, merged, read_features
 from studies.chart_reader.frames import frames_by_verb
 from studies.chart_reader.lattice import SLIP, Lattice
@@ -66,6 +66,10 @@ def test_rooms_are_spans_under_the_names_that_people_say() -> None:
 def test_a_number_is_never_made_up() -> None:
     for text in ("go to the door", "go past doors", "wait"):
         assert not any("NUM" in spans for spans in chart_of(text, "en").at), text
+
+
+def test_a_word_is_no_slip_of_a_number() -> None:
+    assert "NUM" not in {symbol for _, symbol in symbols("go twoo metres")}
 
 
 def test_a_noun_phrase_nests_what_it_is_counted_from() -> None:
@@ -172,38 +176,35 @@ def test_probabilities_of_a_reading_and_of_none_add_up() -> None:
     assert reading.ranked[0].command == understand("go through the second door on the left", "en")
 
 
+def example(text: str, meaning: str) -> Example:
+    """A feasible text of one meaning with its candidates."""
+    sentence = Sentence("1", text, "feasible", (read_meaning(meaning),), "", "a")
+    return example_of(sentence, "en", (), "a")
+
+
 def test_training_makes_the_right_candidates_likelier() -> None:
-    texts = {"take the second left": "turn left at turning#2", "second left": "door(2,left)"}
-    examples = [
-        example_of(
-            Sentence(
-                "1",
-                text,
-                "feasible",
-                (read_meaning(f"through {m}" if "door" in m else m),),
-                "",
-                "a",
-            ),
-            *("en", (), "a"),
-        )
-        for text, m in texts.items()
-        for _ in range(5)
-    ]
-    trainer = Trainer(examples)
-    before = trainer.probabilities(0, trainer.train([5]))
-    after = trainer.probabilities(0, trainer.train(range(5)))
-    right = np.array(examples[0].right)
+    doors = [example("second left", "through door(2,left)")] * 5
+    turns = [example("take the second left", "turn left at turning#2")] * 5
+    trainer = Trainer([*turns, *doors])
+    right = np.array(turns[0].right)
+    few, all_of_them = (trainer.train(which) for which in ([5], range(10)))
+    before, after = (trainer.probabilities(0, weights) for weights in (few, all_of_them))
     assert after[right].sum() > before[right].sum()
 
 
 def test_a_reading_is_acted_on_only_from_the_limit_on() -> None:
-    sentence = Sentence("1", "turn left", "feasible", (read_meaning("turn left"),), "", "a")
-    example = example_of(sentence, "en", (), "a")
-    chances = np.zeros(len(example.right))
-    chances[example.right.index(True)], chances[-1] = 0.75, 0.25
-    assert outcome_of(example, chances, Limits(act=0.7)) == "understood"
-    assert outcome_of(example, chances, Limits(act=0.8)) == "asked"
-    assert outcome_of(example, chances[::-1], Limits(act=0.7)) in ("refused", "misread")
+    known = example("turn left", "turn left")
+    chances = np.zeros(len(known.right))
+    chances[known.right.index(True)], chances[-1] = 0.75, 0.25
+    assert outcome_of(known, chances, Limits(act=0.7)) == "understood"
+    assert outcome_of(known, chances, Limits(act=0.8)) == "asked"
+
+
+def test_a_text_that_is_likely_no_command_is_refused() -> None:
+    known = example("turn left", "turn left")
+    chances = np.zeros(len(known.right))
+    chances[known.right.index(True)], chances[-1] = 0.4, 0.6
+    assert outcome_of(known, chances, Limits(act=0.3)) == "refused"
 
 
 def test_a_question_has_the_two_likeliest_readings() -> None:
