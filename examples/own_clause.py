@@ -1,4 +1,4 @@
-"""A clause of one's own, "back up 1 metre", and an interpreter that understands the words for it.
+"""A clause of one's own, "step aside by 1 metre", and an interpreter that understands the words for it.
 
 One sees what the interpreter takes two texts for, the judge's verdict, and what the robot took for
 its goal.
@@ -19,44 +19,44 @@ from semnav_features.frames import compose
 
 
 @dataclass(frozen=True)
-class BackUp(GroundedClause):
-    """Drive backwards, so many metres."""
+class StepAside(GroundedClause):
+    """Move to the left without turning, so many metres."""
 
     metres: int
     stand_in: ClassVar[Clause] = Follow()  # the token that a learner sees
     forms: ClassVar[tuple[Form, ...]] = (
         form(
             {
-                "en": "back up {metres} metres",
-                "en:one": "back up {metres} metre",
-                "de": "fahr {metres} Meter zurück",
+                "en": "step aside by {metres} metres",
+                "en:one": "step aside by {metres} metre",
+                "de": "geh {metres} Meter zur Seite",
             },
             metres=Multiples(1, 9),
         ),
     )
 
     def goal(self, situation: Situation) -> Goal:
-        """A place behind where the clause began; the heading stays as it is."""
-        place = compose(situation.begin, (-float(self.metres), 0.0, 0.0))
+        """A place to the left of where the clause began; the heading stays as it is."""
+        place = compose(situation.begin, (0.0, float(self.metres), 0.0))
         return ReachGoal(place, 0.4, 0.6, because=str(self))
 
 
-class WithBackUp:
-    """Understands "back up N metres", and leaves everything else to the grammar."""
+class WithStepAside:
+    """Understands "step aside by N metres", and leaves everything else to the grammar."""
 
     def interpret(self, text: str) -> Interpretation:
         """What a text means."""
-        asked = re.fullmatch(r"back up (\d) metres?", text)
+        asked = re.fullmatch(r"step aside by (\d) metres?", text)
         if asked is None:
             return GrammarInterpreter().interpret(text)
-        command = Command((BackUp(int(asked[1])),))
+        command = Command((StepAside(int(asked[1])),))
         return Interpretation(text, (command,), english(), "grammar")
 
 
 def main() -> None:
     """Carry out one command of each kind."""
-    for text in ("back up 1 metre", "go through the first door on the right"):
-        command = WithBackUp().interpret(text).command
+    for text in ("step aside by 1 metre", "go through the first door on the right"):
+        command = WithStepAside().interpret(text).command
         agent = make_agent("scripted")
         env = SemNavEnv("spot", observation=agent.observation)
         start = env.reset(seed=0, options={"command": command, "pose": (-1.0, -0.1, 0.24)})

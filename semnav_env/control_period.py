@@ -58,13 +58,13 @@ class RobotArrays(structref.StructRefProxy):
 structref.define_proxy(RobotArrays, RobotArraysType, list(RobotArrays.__annotations__))
 
 
-@kernel(counts_references=True)
+@kernel
 def join_robot(simulator: SimulatorArrays, senses: Senses, judge: JudgeRecord) -> RobotArrays:
     """The structures as one; they are shared, not copied."""
     return RobotArrays(simulator, senses, judge)
 
 
-@kernel(borrows=True)
+@kernel
 def run_period(
     robot: RobotArrays, drives: bool, forward: float, left: float, turn: float, seconds: float
 ) -> tuple[int, int]:
@@ -94,7 +94,7 @@ def run_period(
     return understood, judge_motion(robot.judge)
 
 
-@kernel(borrows=True)
+@kernel
 def _tell_mind(robot: RobotArrays, seconds: float) -> None:
     """Give what was sensed to the robot's mind, which reads the ranges where they are."""
     sensing, estimate = robot.simulator.sensing[0], robot.senses.estimate[0]
@@ -110,7 +110,7 @@ def _tell_mind(robot: RobotArrays, seconds: float) -> None:
     estimate.velocity[2] = velocity.turn
 
 
-@kernel(borrows=True)
+@kernel
 def _tell_judge(robot: RobotArrays, in_contact: int, seconds: float) -> None:
     """Give the true motion to the robot's judge."""
     sensing, state = robot.simulator.sensing[0], robot.judge.state[0]

@@ -23,7 +23,7 @@ SAYS = {
     "own_reward": "smoothness -0.",
     "own_observation": "nearest_hit: shape (2,)",
     "own_task": "now at stage 1",
-    "own_clause": "BackUp: success True, the robot's goal: back up 1 metre",
+    "own_clause": "StepAside: success True, the robot's goal: step aside by 1 metre",
     "own_agent": '"go through the first door on the right"',
     "doors_from_log": "m wide, confidence",
     "command_on_log": "clause 1, StopGoal",

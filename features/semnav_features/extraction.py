@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import TypeVar
+from typing import TypeVar, cast
 
 import numpy as np
 
@@ -33,6 +33,7 @@ from semnav_features.kernels.scratch import (
     allocate_scratch,
 )
 from semnav_features.lazy_items import LazyItems
+from semnav_features.lidar_spec import SENSOR
 from semnav_features.scan import Scan
 from semnav_features.scene import (
     Arc,
@@ -93,20 +94,28 @@ def extract(
     extract_arrays(
         scan.ranges[:beams].copy(),
         directions,
-        scan.angle_increment,
-        scan.range_min,
-        scan.range_max,
-        _record(settings),
+        sensor_of(scan),
+        _record(settings)[0],
         scratch,
-        *features,
+        features,
+        True,
     )
     scene = to_scene(features)
     if explain:
         from semnav_features.explain import Trace, rejections  # seldom asked for
 
-        trace = Trace.of(scan, directions, settings, scratch, features)
-        scene = replace(scene, rejections=rejections(trace))
+        scene = replace(scene, rejections=rejections(Trace(settings, scratch, features)))
     return scene
+
+
+def sensor_of(scan: Scan) -> np.void:
+    """The limits of a scan as kernels read them, an entry of dtype `SENSOR`."""
+    return _sensor(scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max)
+
+
+@lru_cache(maxsize=16)
+def _sensor(*limits: float) -> np.void:
+    return cast(np.void, np.array([(*limits, 0.0, 0.0, 0.0)], SENSOR)[0])
 
 
 @lru_cache(maxsize=16)

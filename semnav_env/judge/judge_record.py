@@ -55,7 +55,7 @@ class JudgeRecord(structref.StructRefProxy):
 structref.define_proxy(JudgeRecord, JudgeRecordType, list(JudgeRecord.__annotations__))
 
 
-@kernel(counts_references=True)
+@kernel
 def join_record(
     state: np.ndarray,
     doors: FloatArray,
@@ -67,20 +67,20 @@ def join_record(
     return JudgeRecord(state, doors, arms, distances, progress)
 
 
-@kernel(counts_references=True)
+@kernel
 def set_arms(record: JudgeRecord, arms: FloatArray) -> None:
     """Put other arms into a record, for another goal."""
     record.arms = arms
 
 
-@kernel(counts_references=True)
+@kernel
 def set_distances(record: JudgeRecord, distances: FloatArray) -> None:
     """Put another field of distances into a record, and read it where the robot is."""
     record.distances = distances
     record.state[0].remaining = _remaining(record, record.state[0])
 
 
-@kernel(borrows=True)
+@kernel
 def judge_motion(record: JudgeRecord) -> int:
     """Take the motion of one control period into account; returns the events as bits."""
     state = record.state[0]
@@ -123,7 +123,7 @@ def _write_period(state: Any) -> None:
     state.last_x, state.last_y = state.x, state.y
 
 
-@kernel(borrows=True)
+@kernel
 def _remaining(record: JudgeRecord, state: Any) -> float:
     """Length of the way to the goal, metres."""
     if record.distances.size == 0:

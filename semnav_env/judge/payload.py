@@ -48,7 +48,7 @@ class Payload(Protocol):
         """
 
     def update(self, motion: Motion, tracker: BeliefTracker) -> None:
-        """Take in one control period, after the robot's belief and before the judge.
+        """Take in one control period, after the robot's belief and before `Judge.think`.
 
         Args:
             motion: the true one.

@@ -230,7 +230,7 @@ class BackUp(Clause):
     distance: Distance
     forms: ClassVar[tuple[Form, ...]] = (
         form(
-            *("back_up", "", "back up {distance}", (TokenVerb.GO_BACK,)),
+            *("back_up", "", "reverse {distance}", (TokenVerb.GO_BACK,)),
             distance=Distance,
             sampled=False,
         ),

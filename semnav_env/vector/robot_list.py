@@ -10,7 +10,7 @@ from semnav_env.control_period import RobotArrays
 from semnav_features.kernels.compiling import kernel
 
 
-@kernel(counts_references=True)
+@kernel
 def list_of(robot: RobotArrays, count: int) -> Any:
     """A list that holds the same robot as often as said, to be replaced."""
     robots: Any = List()
@@ -19,7 +19,7 @@ def list_of(robot: RobotArrays, count: int) -> Any:
     return robots
 
 
-@kernel(counts_references=True)
+@kernel
 def put(robots: Any, index: int, robot: RobotArrays) -> None:
     """Put another robot into a list."""
     robots[index] = robot

@@ -25,7 +25,7 @@ from semnav_env.vector.tick import (
     write_others,
 )
 from semnav_features.frames import FloatArray
-from semnav_features.kernels.scratch import allocate_scratch
+from semnav_features.kernels.scratch import scratch_array
 
 LEAST_SHARE = 8
 """A thread is not worth starting for fewer robots."""
@@ -154,7 +154,7 @@ class Team:
         """A workbench for each thread, for scans of that many beams."""
         if beams > self._beams:
             self._beams = beams
-            self._workbenches = [workbench_with(allocate_scratch(beams)) for _ in self._parts]
+            self._workbenches = [workbench_with(scratch_array(beams)) for _ in self._parts]
 
     def _note(self, twists: FloatArray, driven: NDArray[np.bool_]) -> None:
         if self._log_length == LOG_LENGTH:

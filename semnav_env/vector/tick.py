@@ -58,7 +58,7 @@ class TeamArrays(structref.StructRefProxy):
 structref.define_proxy(TeamArrays, TeamArraysType, list(TeamArrays.__annotations__))
 
 
-@kernel(counts_references=True)
+@kernel
 def join_team(
     robots: Any,
     periods: np.ndarray,
@@ -73,7 +73,7 @@ def join_team(
     return TeamArrays(robots, periods, events, thoughtful, taken, done, reported, written)
 
 
-@kernel(counts_references=True)
+@kernel
 def begin_period(team: TeamArrays, driven: Flags) -> None:
     """Make the robots that are driven ready to be taken."""
     for k in range(len(driven)):
@@ -81,7 +81,7 @@ def begin_period(team: TeamArrays, driven: Flags) -> None:
         team.done[k] = 0
 
 
-@kernel(counts_references=True)
+@kernel
 def tick(
     team: TeamArrays,
     workbench: Workbench,
@@ -129,7 +129,7 @@ def tick(
     return taken
 
 
-@kernel(counts_references=True)
+@kernel
 def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) -> int:
     """Write which robots are done and think, and were not reported before; returns how many.
 
@@ -154,13 +154,13 @@ def report(team: TeamArrays, rows: NDArray[np.float32], who: NDArray[np.int64]) 
     return count
 
 
-@kernel(borrows=True)
+@kernel
 def _thinks(team: TeamArrays, k: int) -> bool:
     """Whether something calls for thinking."""
     return bool(team.thoughtful[k] or (team.events[k, 0] | team.events[k, 1]) != 0)
 
 
-@kernel(counts_references=True)
+@kernel
 def write_others(team: TeamArrays, rows: NDArray[np.float32]) -> None:
     """Write the observations, see `write_row`, that have not been written."""
     for k in range(len(team.robots)):
@@ -168,14 +168,14 @@ def write_others(team: TeamArrays, rows: NDArray[np.float32]) -> None:
             write_row(rows[k], team.robots[k].senses)
 
 
-@kernel(counts_references=True)
+@kernel
 def write_command_rows(team: TeamArrays, first: int, last: int, rows: NDArray[np.float32]) -> None:
     """Write what some robots observe, remember and were told, see `write_command_row`."""
     for k in range(first, last):
         write_command_row(rows[k], team.robots[k].senses)
 
 
-@kernel(borrows=True)
+@kernel
 def _keep_period(robot: RobotArrays, periods: np.ndarray, k: int) -> None:
     """Write what became of a robot in its row, beside the other robots'."""
     periods[k] = robot.judge.state[0].period

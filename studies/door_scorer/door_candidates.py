@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from semnav_features import ExtractorSettings, Scan
-from semnav_features.extraction import beam_directions
+from semnav_features.extraction import beam_directions, sensor_of
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.chain import extract_arrays
 from semnav_features.kernels.evidence_layout import EVIDENCE_NAMES
@@ -42,12 +42,11 @@ def candidates_of(scan: Scan, settings: ExtractorSettings) -> Candidates:
     extract_arrays(
         scan.ranges[:beams].copy(),
         directions,
-        scan.angle_increment,
-        scan.range_min,
-        scan.range_max,
-        settings.as_record(),
+        sensor_of(scan),
+        settings.as_record()[0],
         scratch,
-        *allocate_features(),
+        allocate_features(),
+        True,
     )
     count = np.count_nonzero(scratch.candidates["state"] != UNUSED_STATE)
     numbers = scratch.evidence[:count].view(np.float64).reshape(count, len(EVIDENCE_NAMES))

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_features import Door, ExtractorSettings, Scan, Wall, extract
-from semnav_features.extraction import beam_directions
+from semnav_features.extraction import beam_directions, sensor_of
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.chain import extract_arrays
 from semnav_features.kernels.scratch import allocate_features, allocate_scratch
@@ -119,18 +119,16 @@ def seconds_a_scan(scans: Iterable[Scan], settings: ExtractorSettings) -> float:
         (
             scan.ranges.copy(),
             beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment),
-            scan.angle_increment,
-            scan.range_min,
-            scan.range_max,
+            sensor_of(scan),
         )
         for scan in scans
     ]
-    record, features = settings.as_record(), allocate_features()
+    record, features = settings.as_record()[0], allocate_features()
     scratch = allocate_scratch(max(len(sweep[0]) for sweep in sweeps))
     rounds = []
     for _ in range(TIMING_ROUNDS + 1):
         start = time.perf_counter()
         for sweep in sweeps:
-            extract_arrays(*sweep, record, scratch, *features)
+            extract_arrays(*sweep, record, scratch, features, True)
         rounds.append(time.perf_counter() - start)
     return min(rounds[1:]) / len(sweeps)

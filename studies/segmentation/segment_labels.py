@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.world.maps.floor_plan import FloorPlan
-from semnav_features.extraction import beam_directions
+from semnav_features.extraction import beam_directions, sensor_of
 from semnav_features.frames import FloatArray, Point
-from semnav_features.kernels.chain import extract_arrays
+from semnav_features.kernels.chain import begin_sweep, copy_sweep, extract_arrays
 from semnav_features.kernels.layout import WALLS
 from semnav_features.kernels.scratch import allocate_features, allocate_scratch
 from semnav_features.kernels.segmentation import group_points
@@ -167,10 +167,8 @@ def found_lines(scan: Scan, settings: ExtractorSettings) -> Labels:
     """The wall that the whole chain puts each beam into."""
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     features, scratch = allocate_features(), allocate_scratch(len(directions))
-    limits = scan.angle_increment, scan.range_min, scan.range_max
-    extract_arrays(
-        scan.ranges.copy(), directions, *limits, settings.as_record(), scratch, *features
-    )
+    record, sensor = settings.as_record()[0], sensor_of(scan)
+    extract_arrays(scan.ranges.copy(), directions, sensor, record, scratch, features, True)
     walls = features.walls[: features.counts[WALLS]]
     return _filled(len(directions), walls["first"].tolist(), walls["last"].tolist())
 
@@ -179,9 +177,10 @@ def found_surfaces(scan: Scan, settings: ExtractorSettings) -> Labels:
     """The connected group that the breakpoint rule puts each beam into."""
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     scratch = allocate_scratch(len(directions))
-    limits = scan.range_min, min(scan.range_max, settings.rupture_range)
-    ranges, record = scan.ranges.copy(), settings.as_record()[0]
-    _, groups = group_points(ranges, directions, scan.angle_increment, *limits, record, scratch)
+    record, beams = settings.as_record()[0], len(directions)
+    begin_sweep(beams, sensor_of(scan), record, scratch)
+    copy_sweep(scan.ranges.copy(), directions, beams, scratch)
+    _, groups = group_points(beams, record, scratch)
     first = scratch.group_first[: groups + 1]
     ends = scratch.beams[first[:-1]].tolist(), scratch.beams[first[1:] - 1].tolist()
     return _filled(len(directions), *ends)

@@ -10,7 +10,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from semnav_features import ExtractorSettings, Scan, extract
-from semnav_features.extraction import beam_directions
+from semnav_features.extraction import beam_directions, sensor_of
+from semnav_features.kernels.chain import begin_sweep, copy_sweep
 from semnav_features.kernels.scratch import allocate_scratch
 from semnav_features.kernels.segmentation import group_points
 from semnav_features.strategies import BreakpointRule, strategy_names
@@ -31,12 +32,10 @@ def groups_of(scan: Scan, chosen: ExtractorSettings) -> list[list[int]]:
     """The beams of each group."""
     directions = beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment)
     scratch = allocate_scratch(len(directions))
-    limit = min(scan.range_max, chosen.rupture_range)
-    ranges = scan.ranges[: len(directions)].copy()
-    increment, record = scan.angle_increment, chosen.as_record()[0]
-    points, groups = group_points(
-        ranges, directions, increment, scan.range_min, limit, record, scratch
-    )
+    record, beams = chosen.as_record()[0], len(directions)
+    begin_sweep(beams, sensor_of(scan), record, scratch)
+    copy_sweep(scan.ranges.copy(), directions, beams, scratch)
+    points, groups = group_points(beams, record, scratch)
     first = scratch.group_first[: groups + 1].tolist()
     assert first[-1] == points
     return [scratch.beams[a:b].tolist() for a, b in itertools.pairwise(first)]

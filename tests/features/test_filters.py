@@ -11,8 +11,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from semnav_features import ExtractorSettings, Scan, Scene, extract
-from semnav_features.extraction import beam_directions
+from semnav_features.extraction import beam_directions, sensor_of
 from semnav_features.frames import FloatArray
+from semnav_features.kernels.chain import begin_sweep
 from semnav_features.kernels.filters import filter_ranges
 from semnav_features.kernels.full_circle import count_beams_per_turn
 from semnav_features.kernels.scratch import allocate_scratch
@@ -35,11 +36,10 @@ filters = st.builds(
 
 def filtered_ranges(scan: Scan, chosen: ExtractorSettings) -> FloatArray:
     beams = len(beam_directions(len(scan.ranges), scan.angle_min, scan.angle_increment))
-    turn = count_beams_per_turn(beams, scan.angle_increment, chosen.dropout_beams)
-    limits = scan.range_min, min(scan.range_max, chosen.rupture_range)
     ranges, record = scan.ranges[:beams].copy(), chosen.as_record()[0]
     scratch = allocate_scratch(beams)
-    filter_ranges(ranges, scan.angle_increment, *limits, turn, record, scratch)
+    begin_sweep(beams, sensor_of(scan), record, scratch)
+    filter_ranges(ranges, record, scratch)
     return scratch.filtered[:beams]
 
 

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_features import CornerKind, Scan, Scene, extract
-from semnav_features.extraction import beam_directions
+from semnav_features.extraction import beam_directions, sensor_of
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.kernels.chain import extract_arrays
 from semnav_features.kernels.layout import WALLS
@@ -138,9 +138,8 @@ def test_walls_know_their_beams(seam: int) -> None:
     scan = begun_at(circle(segments, (1.0, 0.3, 0.24), seed=3), seam)
     features, settings = allocate_features(), ExtractorSettings()
     directions = beam_directions(BEAMS, scan.angle_min, scan.angle_increment)
-    limits = (scan.angle_increment, scan.range_min, scan.range_max)
-    arrays = (settings.as_record(), allocate_scratch(BEAMS), *features)
-    extract_arrays(scan.ranges.copy(), directions, *limits, *arrays)
+    arrays = (settings.as_record()[0], allocate_scratch(BEAMS), features)
+    extract_arrays(scan.ranges.copy(), directions, sensor_of(scan), *arrays, True)
     points = scan.ranges[:, None] * directions
     walls = features.walls[: features.counts[WALLS]]
     assert len(walls) > 5

@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from semnav_features import ExtractorSettings
-from semnav_features.extraction import beam_directions
+from semnav_features import ExtractorSettings, Scan
+from semnav_features.extraction import beam_directions, sensor_of
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.breakpoints import breakpoint_terms
+from semnav_features.kernels.chain import begin_sweep, copy_sweep
 from semnav_features.kernels.lanes import WIDTH
 from semnav_features.kernels.lines import farthest
 from semnav_features.kernels.scratch import allocate_scratch
@@ -74,7 +75,10 @@ def grouped_one_by_one(ranges: FloatArray, directions: FloatArray, record: np.vo
 def test_groups_are_those_found_beam_by_beam(ranges: FloatArray, chosen: ExtractorSettings) -> None:
     directions, scratch = beam_directions(len(ranges), -1.0, INCREMENT), allocate_scratch(300)
     record = chosen.as_record()[0]
-    points, groups = group_points(ranges, directions, INCREMENT, RANGE_MIN, LIMIT, record, scratch)
+    scan = Scan(ranges, -1.0, INCREMENT, RANGE_MIN, LIMIT)
+    begin_sweep(len(ranges), sensor_of(scan), record, scratch)
+    copy_sweep(ranges, directions, len(ranges), scratch)
+    points, groups = group_points(len(ranges), record, scratch)
     xs, ys, beams, first = grouped_one_by_one(ranges, directions, record)
     assert scratch.xs[:points].tolist() == xs
     assert scratch.ys[:points].tolist() == ys

@@ -20,14 +20,14 @@ def sum_of_twice(values):
     return total + twice(1.0) + twice(1) + twice(len(values))
 
 
-@kernel(counts_references=True)
+@kernel
 def counting(n):
     if n < 0:
         raise ValueError("a negative number of values")
     return np.arange(n)
 
 
-@kernel(counts_references=True)
+@kernel
 def sum_of_counting(n):
     return counting(n).sum()
 
@@ -44,12 +44,12 @@ class PairOfArrays(structref.StructRefProxy):
 structref.define_proxy(PairOfArrays, PairOfArraysType, ["first", "both"])
 
 
-@kernel(counts_references=True)
+@kernel
 def paired(first, second):
     return PairOfArrays(first, (first, second))
 
 
-@kernel(borrows=True)
+@kernel
 def sum_of_pair(pair):
     _, second = pair.both
     return sum_of_twice(pair.first[1:]) + second[0]

@@ -112,7 +112,7 @@ def body_shape(robot: RobotSpec) -> BodyShape:
     return BodyShape(robot.length / 2, robot.width / 2, robot.axle)
 
 
-@kernel(counts_references=True)
+@kernel
 def measure_room(
     points: FloatArray,
     body: BodyShape,

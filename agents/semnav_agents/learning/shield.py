@@ -123,7 +123,7 @@ class Shield:
         return settings.margin - (settings.give if self._lenient else 0.0)
 
 
-@kernel(counts_references=True)
+@kernel
 def first_free(
     points: FloatArray,
     body: BodyShape,

@@ -42,7 +42,7 @@ def arrived(aim: Aim, pose: Pose) -> bool:
     return aim.any_heading or abs(wrapped(aim.heading - pose[2])) <= aim.heading_tolerance
 
 
-@kernel(counts_references=True)
+@kernel
 def trimmed(aim: Aim, start: Pose, moves: FloatArray) -> FloatArray:
     """The moves cut off well inside an aim with any heading; other aims keep all moves."""
     if not aim.any_heading:

@@ -84,7 +84,7 @@ def obstacle_field(points: FloatArray, middle: Point, half_size: float) -> Obsta
     return ObstacleField(x, y, *_sort_into_field(np.ascontiguousarray(points), x, y, n))
 
 
-@kernel(counts_references=True)
+@kernel
 def _sort_into_field(
     points: FloatArray, x: float, y: float, n: int
 ) -> tuple[NDArray[np.float32], NDArray[np.int64], FloatArray]:
@@ -170,7 +170,7 @@ def _holds_point(
     return False
 
 
-@kernel(counts_references=True)
+@kernel
 def bins_around(field: ObstacleField, x: float, y: float, radius: float) -> list[tuple[int, int]]:
     """Ranges (first, last + 1) of `field.points`, one for each row of bins around a place."""
     size = FIELD_CELL * BIN_CELLS

@@ -36,7 +36,7 @@ def wrapped(angle: float) -> float:
     return math.pi - (math.pi - angle) % (2.0 * math.pi)
 
 
-@kernel(counts_references=True)
+@kernel
 def connection(start: Pose, end: Pose, backwards: bool) -> FloatArray:
     """Turn, drive and turn from one axle pose to another, shape (3, 3); a zero row is no move."""
     moves = np.zeros((3, 3))
@@ -53,7 +53,7 @@ def connection(start: Pose, end: Pose, backwards: bool) -> FloatArray:
     return moves
 
 
-@kernel(counts_references=True)
+@kernel
 def smooth_connection(
     start: Pose, end: Pose, radius: float, first: float, last: float
 ) -> FloatArray:

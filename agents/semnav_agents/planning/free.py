@@ -11,7 +11,7 @@ from semnav_features.frames import FloatArray, Pose
 from semnav_features.kernels.compiling import kernel
 
 
-@kernel(counts_references=True)
+@kernel
 def clearances(field: ObstacleField, body: Footprint, poses: FloatArray, most: float) -> FloatArray:
     """Distance from the footprint to the nearest point at axle poses, metres, shape (M,).
 
@@ -56,7 +56,7 @@ def all_clear(
     return True
 
 
-@kernel(counts_references=True)
+@kernel
 def points_around(pose: Pose, points: FloatArray, reach: float) -> FloatArray:
     """The points within a square of that half side around a pose, in its frame, shape (M, 2)."""
     c, s = math.cos(pose[2]), math.sin(pose[2])

@@ -23,7 +23,7 @@ COARSE_DIAGONAL = COARSE_CELL * math.sqrt(2.0)
 """Distance of two cells of the heuristic that touch at a corner, metres."""
 
 
-@kernel(counts_references=True)
+@kernel
 def room_grid(field: ObstacleField, body: Footprint, margin: float) -> FloatArray:
     """Room beside an inscribed disc in each coarse cell, metres; negative where it cannot be.
 
@@ -42,7 +42,7 @@ def room_grid(field: ObstacleField, body: Footprint, margin: float) -> FloatArra
     return room
 
 
-@kernel(counts_references=True)
+@kernel
 def seconds_to(
     sources: NDArray[np.int64], first: FloatArray, room: FloatArray, costs: MotionCosts
 ) -> FloatArray:
@@ -58,7 +58,7 @@ def seconds_to(
     return least_costs(sources, first, _slowness(room, costs), straight, diagonal, False)
 
 
-@kernel(counts_references=True)
+@kernel
 def _slowness(room: FloatArray, costs: MotionCosts) -> FloatArray:
     """How many times as long a way takes in each cell; infinite where it cannot lead, (n, n)."""
     slowness = np.full(room.shape, np.inf)

@@ -43,7 +43,7 @@ ANCHORS_PER_LANE, ANCHOR_DISTANCE = 9, 0.4
 """Anchors along a lane, the middle one in the gap, and their distance in metres."""
 
 
-@kernel(counts_references=True)
+@kernel
 def narrowest(room: FloatArray, way: NDArray[np.int64], limit: float) -> NDArray[np.int64]:
     """Indices of the cells of `way` whose room is below the limit and the least within 0.6 m."""
     around = int(0.6 / COARSE_CELL)
@@ -80,7 +80,7 @@ def strip(
     return left, right
 
 
-@kernel(counts_references=True)
+@kernel
 def points_near(field: ObstacleField, x: float, y: float, radius: float) -> FloatArray:
     """The obstacle points within the radius, shape (N, 2)."""
     near = [(0.0, 0.0)]
@@ -94,7 +94,7 @@ def points_near(field: ObstacleField, x: float, y: float, radius: float) -> Floa
     return out
 
 
-@kernel(counts_references=True)
+@kernel
 def lanes_through(
     field: ObstacleField, body: Footprint, x: float, y: float, ahead: float, margin: float
 ) -> FloatArray:
@@ -113,7 +113,7 @@ def lanes_through(
     return best
 
 
-@kernel(counts_references=True)
+@kernel
 def centred(near: FloatArray, x: float, y: float, heading: float, reach: float) -> FloatArray:
     """The lane of that heading around (x, y)."""
     left, right = 0.0, 0.0
@@ -124,7 +124,7 @@ def centred(near: FloatArray, x: float, y: float, heading: float, reach: float) 
     return np.array([x, y, heading, left - right])
 
 
-@kernel(counts_references=True)
+@kernel
 def is_passable(field: ObstacleField, body: Footprint, x: float, y: float, margin: float) -> bool:
     """Whether the body fits through the gap at (x, y) in any heading.
 
@@ -145,7 +145,7 @@ def is_passable(field: ObstacleField, body: Footprint, x: float, y: float, margi
     return False
 
 
-@kernel(counts_references=True)
+@kernel
 def refined(near: FloatArray, lane: FloatArray) -> FloatArray:
     """The widest lane within one step of heading."""
     best = lane
@@ -157,7 +157,7 @@ def refined(near: FloatArray, lane: FloatArray) -> FloatArray:
     return best
 
 
-@kernel(counts_references=True)
+@kernel
 def _best_apart(lanes: FloatArray, scores: FloatArray) -> FloatArray:
     """The best lanes that differ by more than 20 degrees, shape (L, 4)."""
     apart = round(LANE_HEADINGS * 20 / 180)
@@ -171,7 +171,7 @@ def _best_apart(lanes: FloatArray, scores: FloatArray) -> FloatArray:
     return kept[:n]
 
 
-@kernel(counts_references=True)
+@kernel
 def lane_anchors(
     field: ObstacleField,
     body: Footprint,
@@ -213,7 +213,7 @@ def lane_anchors(
     return anchors[:n]
 
 
-@kernel(counts_references=True)
+@kernel
 def close_gaps(
     field: ObstacleField, body: Footprint, room: FloatArray, way: NDArray[np.int64], margin: float
 ) -> bool:

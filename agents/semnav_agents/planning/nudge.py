@@ -19,7 +19,7 @@ RELEVANT_DISTANCE = 0.15
 """Distance from the footprints along the path beyond which points do not matter, metres."""
 
 
-@kernel(counts_references=True)
+@kernel
 def best_nudge(
     points: FloatArray, poses: FloatArray, length: float, width: float, wanted: float
 ) -> tuple[float, float, float]:
@@ -77,7 +77,7 @@ def path_clearance(
     return least
 
 
-@kernel(counts_references=True)
+@kernel
 def path_clearances(
     points: FloatArray, poses: FloatArray, length: float, width: float, most: float
 ) -> FloatArray:
@@ -89,7 +89,7 @@ def path_clearances(
     return clearance
 
 
-@kernel(counts_references=True)
+@kernel
 def _near_points(points: FloatArray, poses: FloatArray, length: float, width: float) -> FloatArray:
     kept = np.empty_like(points)
     n = 0

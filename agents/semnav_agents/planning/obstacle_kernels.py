@@ -61,7 +61,7 @@ def slot(x: float, y: float) -> tuple[int, int]:
     return math.floor(y / VOXEL) % TABLE_SIDE, math.floor(x / VOXEL) % TABLE_SIDE
 
 
-@kernel(counts_references=True)
+@kernel
 def forget(
     centres: NDArray[Any],
     count: int,
@@ -205,7 +205,7 @@ def nearest(
     return best
 
 
-@kernel(counts_references=True)
+@kernel
 def select(centres: NDArray[Any], sure: int, share: float, blunt: float) -> FloatArray:
     """Positions of the centres that were hit often enough, by themselves and beside neighbours.
 

@@ -112,7 +112,7 @@ class PlannedPath:
         return x, y, heading
 
 
-@kernel(counts_references=True)
+@kernel
 def sampled(
     start: Pose, moves: FloatArray
 ) -> tuple[FloatArray, NDArray[np.int64], NDArray[np.int64]]:

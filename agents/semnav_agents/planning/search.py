@@ -113,7 +113,7 @@ def seconds_left(problem: SearchProblem, pose: Pose) -> float:
     return seconds_at(problem.field, problem.time, x, y)
 
 
-@kernel(counts_references=True)
+@kernel
 def new_tree(start: Pose, anchors: FloatArray, capacity: int, cells: int) -> SearchTree:
     """A tree of the start alone, with room for `capacity` nodes."""
     tree = SearchTree(
@@ -139,7 +139,7 @@ def pose_of(tree: SearchTree, node: int) -> Pose:
     return tree.pose[node, 0], tree.pose[node, 1], tree.pose[node, 2]
 
 
-@kernel(counts_references=True)
+@kernel
 def connect(
     problem: SearchProblem, tree: SearchTree, heap: list[tuple[float, int]], node: int, to: int
 ) -> None:
@@ -170,7 +170,7 @@ def connect(
             heapq.heappush(heap, (tree.cost[to] + left, to))
 
 
-@kernel(counts_references=True)
+@kernel
 def expand(
     problem: SearchProblem, tree: SearchTree, heap: list[tuple[float, int]], node: int
 ) -> None:
@@ -204,7 +204,7 @@ def expand(
         heapq.heappush(heap, (cost + problem.greed * left, there))
 
 
-@kernel(counts_references=True)
+@kernel
 def search(
     problem: SearchProblem, start: Pose, anchors: FloatArray, max_expansions: int
 ) -> tuple[FloatArray, bool, int]:
@@ -248,7 +248,7 @@ def search(
     return moves_to(problem, tree, TARGET_NODE if connected else best), connected, expanded
 
 
-@kernel(counts_references=True)
+@kernel
 def moves_to(problem: SearchProblem, tree: SearchTree, node: int) -> FloatArray:
     """The moves from the start to a node, shape (M, 3)."""
     chain = [node]

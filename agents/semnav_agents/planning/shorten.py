@@ -39,7 +39,7 @@ ARC_SIDES = (1.0, -1.0)
 """An arc to the left, and one to the right."""
 
 
-@kernel(counts_references=True)
+@kernel
 def merged(moves: FloatArray) -> FloatArray:
     """The moves without empty ones, equal motions that follow one another joined."""
     out = np.empty_like(moves)
@@ -69,7 +69,7 @@ def _same_twist(a: Move, b: Move) -> bool:
     return bool(straight or same_arc)
 
 
-@kernel(counts_references=True)
+@kernel
 def shortened(
     field: ObstacleField,
     body: Footprint,
@@ -96,7 +96,7 @@ def shortened(
     return merged(_stacked(out))
 
 
-@kernel(counts_references=True)
+@kernel
 def _cheapest(
     field: ObstacleField,
     body: Footprint,
@@ -131,7 +131,7 @@ def end_of(pose: Pose, moves: FloatArray) -> Pose:
     return pose
 
 
-@kernel(counts_references=True)
+@kernel
 def _stacked(parts: list[FloatArray]) -> FloatArray:
     total = 0
     for part in parts:
@@ -143,7 +143,7 @@ def _stacked(parts: list[FloatArray]) -> FloatArray:
     return out
 
 
-@kernel(counts_references=True)
+@kernel
 def rounded(
     field: ObstacleField,
     body: Footprint,
@@ -177,7 +177,7 @@ def _is_corner(moves: FloatArray, k: int) -> bool:
     return bool(straight and turns and before.forward * after.forward > 0)
 
 
-@kernel(counts_references=True)
+@kernel
 def _arc(
     field: ObstacleField,
     body: Footprint,

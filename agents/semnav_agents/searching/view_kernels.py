@@ -38,7 +38,7 @@ def fits(
     return True
 
 
-@kernel(counts_references=True)
+@kernel
 def seconds_to_look(
     eyes: FloatArray,
     headings: FloatArray,
@@ -79,7 +79,7 @@ def seconds_to_look(
     return costs
 
 
-@kernel(counts_references=True)
+@kernel
 def ray_gains(
     places: FloatArray,
     wanted: Mask,

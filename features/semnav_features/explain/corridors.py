@@ -49,10 +49,9 @@ def _probe(
     entry["end_y"] += length * along[1]
     if reach < 0.0:
         return entry, int(-reach)
-    sweep = (trace.ranges, trace.directions, trace.increment, trace.range_min, trace.limit)
     return entry, (
         kernel.corridor_fault(entry, record)
-        or kernel.view_fault(entry, *sweep)
+        or kernel.view_fault(entry, scratch)
         or kernel.repeat_fault(entry, found, trace.features.corridors, record)
     )
 

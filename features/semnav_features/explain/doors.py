@@ -41,7 +41,8 @@ def rejected_doors(trace: Trace) -> Iterator[Rejection]:
 def _groups(trace: Trace) -> int:
     """Number of connected groups of points: the last one ends with the last point."""
     ranges = trace.ranges[: trace.beams_per_turn or len(trace.ranges)]
-    valid = (ranges >= trace.range_min) & (ranges > 0.0) & (ranges < trace.limit)
+    scratch = trace.scratch
+    valid = (ranges >= scratch.range_min) & (ranges > 0.0) & (ranges < scratch.limit)
     return int(np.argmax(trace.scratch.group_first == valid.sum()))
 
 
@@ -58,7 +59,6 @@ class GapTrial:
 
     def __init__(self, trace: Trace) -> None:
         self._trace = trace
-        self._sweep = trace.ranges, trace.directions, trace.range_min, trace.limit
         self._gap, self._evidence = np.zeros(1, CANDIDATE), np.zeros(1, EVIDENCE)
         self._longest = kernel.longest_wall(trace.pieces)
         self._accepted = 0
@@ -73,7 +73,7 @@ class GapTrial:
         settings = self._trace.settings
         widest = settings.door_width_max + settings.door_width_tolerance
         most = kernel.farthest_beam(
-            start, widest + 2.0 * kernel.MAX_BEAM_SPACING, self._trace.increment
+            start, widest + 2.0 * kernel.MAX_BEAM_SPACING, self._trace.scratch.increment
         )
         return bool(end["beam"] <= start["beam"] + most)
 
@@ -85,9 +85,9 @@ class GapTrial:
         if between < settings.door_beams:
             named = is_next and between > 0 and width >= LEAST_GAP
             return f"{between} beams pass; door_beams is {settings.door_beams}" if named else ""
-        if fault := kernel.set_gap(start, end, trace.increment, trace.record, gap):
+        if fault := kernel.set_gap(start, end, trace.scratch.increment, trace.record, gap):
             return self._fault_of_width(fault, width) if is_next and width >= LEAST_GAP else ""
-        if fault := beams.measure_gap(*self._sweep, gap, trace.record, self._evidence[0]):
+        if fault := beams.measure_gap(gap, trace.record, trace.scratch, self._evidence[0]):
             return self._fault_of_beams(fault)
         return self._fault_of_confidence()
 
@@ -128,20 +128,18 @@ class GapTrial:
 
     def _across(self) -> tuple[FloatArray, FloatArray]:
         """For each beam of the gap the sine of its angle to the chord, and how deep it gets, m."""
-        ranges, directions, range_min, limit = self._sweep
-        gap = self._gap[0]
+        scratch, gap = self._trace.scratch, self._gap[0]
         chosen = slice(int(gap["first"]), int(gap["last"]) + 1)
-        dx, dy = directions[chosen].T
+        dx, dy = scratch.directions[chosen].T
         slant = dx * gap["along_y"] - dy * gap["along_x"]
-        measured = ranges[chosen]
-        seen = (measured >= range_min) & (measured > 0.0) & (measured < limit)
+        measured = scratch.ranges[chosen]
+        seen = (measured >= scratch.range_min) & (measured > 0.0) & (measured < scratch.limit)
         return slant, np.where(seen, measured * slant - gap["distance"], np.inf)
 
     def _fault_of_confidence(self) -> str:
         trace, gap, evidence = self._trace, self._gap[0], self._evidence[0]
         record, scratch, settings = trace.record, trace.scratch, trace.settings
-        circle = trace.beams_per_turn
-        beams.measure_walls(*self._sweep, circle, gap, trace.pieces, record, evidence)
+        beams.measure_walls(gap, trace.pieces, record, scratch, evidence)
         beams.measure_place(gap, *self._longest, evidence)
         numbers = self._evidence.view(np.float64)
         gap["confidence"] = kernel.score(numbers, scratch.scorer)

@@ -9,62 +9,39 @@ from typing import Any
 import numpy as np
 
 from semnav_features.frames import FloatArray, Point
-from semnav_features.kernels.filters import filter_ranges
-from semnav_features.kernels.full_circle import count_beams_per_turn
 from semnav_features.kernels.layout import PIECES, WALLS
 from semnav_features.kernels.scratch import Features, Scratch
-from semnav_features.scan import Scan
 from semnav_features.settings import ExtractorSettings
 
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """Inputs, working memory and results of `extract_arrays` for one scan.
+    """Inputs, working memory and results of the last `extract_arrays`.
 
     Attributes:
-        ranges: metres; of a full circle unrolled, twice over.
-        directions: cosine and sine of their beams.
-        increment: angle between beams, radians.
-        range_min: shortest valid range, metres.
-        limit: returns at or beyond it do not count, metres.
-        beams_per_turn: beams of a full circle, else 0.
         settings: every limit.
-        scratch: with `pieces`, `joints`, `wall_piece` and so on.
+        scratch: with the scan, `pieces`, `joints`, `wall_piece` and so on.
         features: what was found.
     """
 
-    ranges: FloatArray
-    directions: FloatArray
-    increment: float
-    range_min: float
-    limit: float
-    beams_per_turn: int
     settings: ExtractorSettings
     scratch: Scratch
     features: Features
 
-    @classmethod
-    def of(
-        cls,
-        scan: Scan,
-        directions: FloatArray,
-        settings: ExtractorSettings,
-        scratch: Scratch,
-        features: Features,
-    ) -> Trace:
-        """The trace of a scan that was just extracted with these arrays."""
-        beams, increment = len(directions), scan.angle_increment
-        beams_per_turn = count_beams_per_turn(beams, increment, settings.dropout_beams)
-        limit = min(scan.range_max, settings.rupture_range)
-        if beams_per_turn > 0:
-            ranges = scratch.circle_ranges[: 2 * beams_per_turn]
-            directions = scratch.circle_directions[: 2 * beams_per_turn]
-        else:
-            given, record = scan.ranges[:beams].copy(), settings.as_record()[0]
-            filter_ranges(given, increment, scan.range_min, limit, 0, record, scratch)
-            ranges = scratch.filtered[:beams]
-        found = (beams_per_turn, settings, scratch, features)
-        return cls(ranges, directions, increment, scan.range_min, limit, *found)
+    @property
+    def beams_per_turn(self) -> int:
+        """Beams of a full circle, else 0."""
+        return int(self.scratch.beams_per_turn)
+
+    @property
+    def ranges(self) -> FloatArray:
+        """Metres, shape (n,); of a full circle unrolled, twice over."""
+        return self.scratch.ranges[: self.scratch.beam_count]
+
+    @property
+    def directions(self) -> FloatArray:
+        """Cosine and sine of their beams, shape (n, 2)."""
+        return self.scratch.directions[: self.scratch.beam_count]
 
     @cached_property
     def record(self) -> Any:

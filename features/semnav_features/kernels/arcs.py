@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from semnav_features.frames import FloatArray
 from semnav_features.kernels.arc_candidates import end_of_run, is_bent_like_arc, may_be_column
 from semnav_features.kernels.arc_criterion import is_arc, straight_scatter
 from semnav_features.kernels.circles import (
@@ -28,9 +27,7 @@ EDGE_DEVIATION = 0.25
 
 
 @kernel
-def find_arcs(
-    directions: FloatArray, groups: int, pieces: int, settings: Any, scratch: Any, arcs: np.ndarray
-) -> int:
+def find_arcs(groups: int, pieces: int, settings: Any, scratch: Any, arcs: np.ndarray) -> int:
     """Write the arcs among the pieces and flag these pieces `ROUND`; returns how many.
 
     A run of pieces that bend the same way, no more than chords of one circle would, is tried as
@@ -45,9 +42,8 @@ def find_arcs(
         last, heading_change = end_of_run(first, pieces, settings, straight)
         before = found
         if is_bent_like_arc(first, last, heading_change, settings, xs, ys, straight):
-            found = explain_run(
-                directions, groups, pieces, first, last, settings, scratch, arcs, found
-            )
+            run = (first, last)
+            found = explain_run(run, (groups, pieces), settings, scratch, arcs, found)
         starts_another = last > first and found == before
         first = last if starts_another else last + 1
     return found
@@ -55,11 +51,8 @@ def find_arcs(
 
 @kernel
 def explain_run(
-    directions: FloatArray,
-    groups: int,
-    count: int,
-    first: int,
-    last: int,
+    run: tuple[int, int],
+    counts: tuple[int, int],
     settings: Any,
     scratch: Any,
     arcs: np.ndarray,
@@ -69,10 +62,18 @@ def explain_run(
 
     The stack holds the last pieces of the parts that are still to be tried, the nearest on top;
     `start` is the first piece that is not explained yet. A part that is no arc is cut in two.
+
+    Args:
+        run: its first and its last piece.
+        counts: of groups and of pieces.
+        settings: of the extractor.
+        scratch: with the pieces.
+        arcs: written from entry `found` on.
+        found: how many arcs there are already.
     """
     stack = scratch.stack
-    stack[0] = last
-    start, height = first, 1
+    start, stack[0] = run
+    height = 1
     while height > 0 and found < len(arcs):
         end = stack[height - 1]
         if start > end or scratch.pieces[start].flags & ROUND:
@@ -81,7 +82,7 @@ def explain_run(
             continue
         worst = 0
         if end > start or may_be_column(scratch.pieces[start], settings):
-            worst = try_arc(directions, groups, count, start, end, settings, scratch, arcs[found])
+            worst = try_arc((start, end), counts, settings, scratch, arcs[found])
         if worst >= 0 and end > start:
             stack[height] = piece_before_cut(start, end, worst, scratch.pieces)
             height += 1
@@ -103,29 +104,23 @@ def piece_before_cut(start: int, end: int, worst: int, pieces: np.ndarray) -> in
 
 @kernel
 def try_arc(
-    directions: FloatArray,
-    groups: int,
-    count: int,
-    start: int,
-    end: int,
-    settings: Any,
-    scratch: Any,
-    arc: Any,
+    run: tuple[int, int], counts: tuple[int, int], settings: Any, scratch: Any, arc: Any
 ) -> int:
-    """Fit one arc to the pieces start to end and write it if it explains them better.
+    """Fit one arc to a run of pieces and write it if it explains them better; as `explain_run`.
 
     Returns:
         -1 if it does, else the point that is farthest from the circle.
     """
     xs, ys, pieces = scratch.xs, scratch.ys, scratch.pieces
+    start, end = run
     first, last = pieces[start].first, pieces[end].last
     circle = algebraic_circle(xs, ys, first, last)
-    start, first = grow_run(circle, start, first, -1, groups, count, settings, scratch)
-    end, last = grow_run(circle, end, last, 1, groups, count, settings, scratch)
+    start, first = grow_run(circle, start, first, -1, counts, settings, scratch)
+    end, last = grow_run(circle, end, last, 1, counts, settings, scratch)
     before = after = NO_RAY
     if is_convex_at(circle, xs[(first + last) // 2], ys[(first + last) // 2]):
-        before = edge_ray(first, -1, directions, groups, settings, scratch)
-        after = edge_ray(last, 1, directions, groups, settings, scratch)
+        before = edge_ray(first, -1, counts[0], settings, scratch)
+        after = edge_ray(last, 1, counts[0], settings, scratch)
     circle = refine_circle(xs, ys, first, last, circle, before, after)
     scatter, worst = circle_residuals(xs, ys, first, last, circle)
     straight = straight_scatter(start, end, first, last, scratch)
@@ -149,8 +144,7 @@ def grow_run(
     piece: int,
     point: int,
     step: int,
-    groups: int,
-    count: int,
+    counts: tuple[int, int],
     settings: Any,
     scratch: Any,
 ) -> tuple[int, int]:
@@ -162,6 +156,7 @@ def grow_run(
     Returns:
         The outermost piece and the outermost point.
     """
+    groups, count = counts
     pieces, bounds = scratch.pieces, scratch.group_first[: groups + 1]
     group = np.searchsorted(bounds, point, side="right")
     border = bounds[group - 1] if step < 0 else bounds[group] - 1
@@ -192,19 +187,17 @@ def is_on_circle(circle: tuple[float, float, float], x: float, y: float, setting
 
 
 @kernel
-def edge_ray(
-    point: int, step: int, directions: FloatArray, groups: int, settings: Any, scratch: Any
-) -> Ray:
+def edge_ray(point: int, step: int, groups: int, settings: Any, scratch: Any) -> Ray:
     """The ray that touches a column beside its first (step -1) or last point (step 1).
 
     The beam at that point meets the column and the next one passes it, so the tangent ray lies
     between them: for thin columns that tells the radius better than the ranges do.
     `NO_RAY` where the next beam is missing, or ends before the column or on something connected.
     """
-    xs, ys, beams = scratch.xs, scratch.ys, scratch.beams
+    xs, ys, beams, directions = scratch.xs, scratch.ys, scratch.beams, scratch.directions
     beam, following = beams[point] + step, point + step
     bounds = scratch.group_first[: groups + 1]
-    if beam < 0 or beam >= len(directions):
+    if beam < 0 or beam >= scratch.beam_count:
         return NO_RAY
     square = xs[point] ** 2 + ys[point] ** 2
     if 0 <= following < bounds[groups]:

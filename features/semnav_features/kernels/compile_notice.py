@@ -19,15 +19,27 @@ class CompileNotice:
         self._spent = 0.0
         self._since: float | None = None
 
+    def begin(self) -> None:
+        """Count the time from now on, unless it is counted already."""
+        if self._since is None:
+            self._since = time.perf_counter()
+
+    def end(self) -> None:
+        """Count no more."""
+        if self._since is not None:
+            self._spent += time.perf_counter() - self._since
+            self._since = None
+
     @contextmanager
     def while_compiling(self) -> Iterator[None]:
         """Count the time that passes inside; one thread may compile, and another wait for it."""
-        since = self._since = time.perf_counter()
+        is_first = self._since is None
+        self.begin()
         try:
             yield
         finally:
-            self._spent += time.perf_counter() - since
-            self._since = None
+            if is_first:
+                self.end()
 
     def work_goes_on(self) -> None:
         """Say so, if the user has waited for long enough."""
@@ -37,7 +49,7 @@ class CompileNotice:
         if self._spent + time.perf_counter() - since > PATIENCE:
             self._said = True
             print(
-                "semnav-env: compiling kernels used for the first time: up to half a minute; "
+                "semnav-env: compiling kernels used for the first time: about a minute; "
                 "`semnav doctor --warm` compiles all",
                 file=sys.stderr,
                 flush=True,

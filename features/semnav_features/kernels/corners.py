@@ -6,7 +6,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from semnav_features.elements import CornerKind
 from semnav_features.kernels.compiling import kernel
@@ -42,24 +41,18 @@ def find_corners(
         How many corners were written, in beam order.
     """
     join_ends(count, is_ring, settings, scratch)
-    joints, corner_ends = scratch.joints, scratch.corner_ends
-    found = 0
+    joints, found = scratch.joints, 0
     for k in range(count):
         wall, joint = scratch.pieces[scratch.wall_piece[k]], joints[k]
         if not joint.start_meets and wall.flags & (START_BREAK | START_RUPTURE):
-            x, y = wall.start_x, wall.start_y
-            found = write_potential(
-                found, x, y, -1, k, count, settings, joints, corner_ends, corners
-            )
+            place = wall.start_x, wall.start_y
+            found = write_potential(found, place, (-1, k), count, settings, scratch, corners)
         if joint.partner >= 0:
-            found = write_corner(
-                found, joint.x, joint.y, joint.kind, k, joint.partner, corner_ends, corners
-            )
+            corner = joint.x, joint.y, joint.kind
+            found = write_corner(found, corner, (k, joint.partner), scratch, corners)
         elif wall.flags & (END_BREAK | END_RUPTURE):
-            x, y = wall.end_x, wall.end_y
-            found = write_potential(
-                found, x, y, k, -1, count, settings, joints, corner_ends, corners
-            )
+            place = wall.end_x, wall.end_y
+            found = write_potential(found, place, (k, -1), count, settings, scratch, corners)
     return found
 
 
@@ -140,39 +133,53 @@ def full_corner(a: Any, b: Any, settings: Any) -> tuple[int, float, float]:
 @kernel
 def write_potential(
     found: int,
-    x: float,
-    y: float,
-    ending: int,
-    starting: int,
+    place: tuple[float, float],
+    walls: tuple[int, int],
     count: int,
     settings: Any,
-    joints: np.ndarray,
-    corner_ends: NDArray[np.int64],
+    scratch: Any,
     corners: np.ndarray,
 ) -> int:
-    """Append a potential corner unless there is one at its place; returns how many there are."""
-    if meets_near(x, y, count, settings, joints):
+    """Append a potential corner unless there is one at its place; returns how many there are.
+
+    Args:
+        found: how many there were before.
+        place: of the corner.
+        walls: those that end and start there, one of them -1.
+        count: how many walls there are.
+        settings: of the extractor.
+        scratch: with `joints`.
+        corners: written.
+    """
+    x, y = place
+    if meets_near(x, y, count, settings, scratch.joints):
         return found
     for k in range(found):
         if is_same_place(corners[k].x - x, corners[k].y - y, settings):
             return found
-    return write_corner(found, x, y, POTENTIAL, ending, starting, corner_ends, corners)
+    return write_corner(found, (x, y, POTENTIAL), walls, scratch, corners)
 
 
 @kernel
 def write_corner(
     found: int,
-    x: float,
-    y: float,
-    kind: int,
-    ending: int,
-    starting: int,
-    corner_ends: NDArray[np.int64],
+    corner: tuple[float, float, int],
+    walls: tuple[int, int],
+    scratch: Any,
     corners: np.ndarray,
 ) -> int:
-    """Append a corner if there is room; returns how many there are now."""
+    """Append a corner if there is room; returns how many there are now.
+
+    Args:
+        found: how many there were before.
+        corner: place and kind.
+        walls: those that end and start there; -1 for none.
+        scratch: with `corner_ends`, written.
+        corners: written.
+    """
+    corner_ends = scratch.corner_ends
     if found == min(len(corners), len(corner_ends)):
         return found
-    corners[found].x, corners[found].y, corners[found].kind = x, y, kind
-    corner_ends[found, 0], corner_ends[found, 1] = ending, starting
+    corners[found].x, corners[found].y, corners[found].kind = corner
+    corner_ends[found, 0], corner_ends[found, 1] = walls
     return found + 1

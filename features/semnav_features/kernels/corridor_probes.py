@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.corners import INNER, OUTER
 from semnav_features.kernels.lanes import WIDTH, bits, first_lanes, load
@@ -26,14 +25,8 @@ ROUNDING_MARGIN = 1e-6
 
 @kernel
 def find_corridors(
-    ranges: FloatArray,
-    directions: FloatArray,
-    increment: float,
-    range_min: float,
-    limit: float,
     walls: int,
     corner_count: int,
-    is_ring: bool,
     settings: Any,
     scratch: Any,
     corners: np.ndarray,
@@ -50,7 +43,7 @@ def find_corridors(
         How many corridors were written.
     """
     found = nearest = 0
-    for c in range(corner_count if is_ring else 0):
+    for c in range(corner_count if scratch.beams_per_turn > 0 else 0):
         a, b = corners[c], corners[nearest]
         nearest = c if a.x**2 + a.y**2 < b.x**2 + b.y**2 else nearest
     square = math.cos(settings.corridor_angle_tolerance)
@@ -73,7 +66,7 @@ def find_corridors(
             entry.start_x, entry.start_y = corner.x, corner.y
             entry.end_x, entry.end_y = corner.x + reach * along_x, corner.y + reach * along_y
             fault = corridor_fault(entry, settings)
-            fault = fault or view_fault(entry, ranges, directions, increment, range_min, limit)
+            fault = fault or view_fault(entry, scratch)
             fault = fault or repeat_fault(entry, found, corridors, settings)
             found += not fault
     return found
@@ -189,26 +182,21 @@ def corridor_fault(entry: Any, settings: Any) -> int:
 
 
 @kernel
-def view_fault(
-    entry: Any,
-    ranges: FloatArray,
-    directions: FloatArray,
-    increment: float,
-    range_min: float,
-    limit: float,
-) -> int:
+def view_fault(entry: Any, scratch: Any) -> int:
     """`HIDDEN` unless a beam passes over the midpoint, so that it lies in free space; else 0."""
     x, y = 0.5 * (entry.start_x + entry.end_x), 0.5 * (entry.start_y + entry.end_y)
+    directions, increment = scratch.directions, scratch.increment
     angle = math.atan2(
         directions[0, 0] * y - directions[0, 1] * x, directions[0, 0] * x + directions[0, 1] * y
     )
     if angle < -0.5 * increment:
         angle += 2.0 * math.pi
     place = angle / increment + 0.5
-    if place >= len(ranges):
+    if place >= scratch.beam_count:
         return HIDDEN
-    distance = ranges[int(place)]
-    is_free = not is_return(distance, range_min, limit) or distance > math.hypot(x, y)
+    distance = scratch.ranges[int(place)]
+    is_seen = is_return(distance, scratch.range_min, scratch.limit)
+    is_free = not is_seen or distance > math.hypot(x, y)
     return 0 if is_free else HIDDEN
 
 

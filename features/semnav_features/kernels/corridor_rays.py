@@ -55,7 +55,7 @@ MIN_END_SINE = math.sin(math.radians(15.0))
 it."""
 
 
-@kernel(counts_references=True)
+@kernel
 def in_frame(segments: FloatArray, x: float, y: float, heading: float) -> FloatArray:
     """Segments, shape (n, 4), seen from an axis that begins at (x, y)."""
     c, s = math.cos(heading), math.sin(heading)
@@ -67,7 +67,7 @@ def in_frame(segments: FloatArray, x: float, y: float, heading: float) -> FloatA
     return local
 
 
-@kernel(counts_references=True)
+@kernel
 def probe(local: FloatArray, sign: float, back: float, count: int) -> FloatArray:
     """How far the first `count` rays go to one side, metres; inf beyond `MAX_SIDE_DISTANCE`.
 
@@ -111,7 +111,7 @@ def shift(local: FloatArray, offset: float) -> None:
         local[i, 3] -= offset
 
 
-@kernel(counts_references=True)
+@kernel
 def typical_distances(local: FloatArray, back: float, straight: float) -> tuple[float, float]:
     """Typical distances of the left and the right side from the axis, metres.
 
@@ -128,7 +128,7 @@ def typical_distances(local: FloatArray, back: float, straight: float) -> tuple[
     return left, right
 
 
-@kernel(counts_references=True)
+@kernel
 def _usual(side: FloatArray, room: float) -> float:
     """The typical distance of a side; `MAX_SIDE_DISTANCE` where none is seen.
 
@@ -150,7 +150,7 @@ def _room(lanes: FloatArray, straight: float) -> float:
     return max(count - 0.5, 0.5 * BODY_WIDTH / LANE_SPACING) * LANE_SPACING
 
 
-@kernel(counts_references=True)
+@kernel
 def way_ahead(local: FloatArray) -> tuple[float, float]:
     """The nearest way for a body that goes on about as far as any way beside the robot.
 
@@ -179,7 +179,7 @@ def _goes_on(distance: float, farthest: float) -> bool:
     return distance == farthest or distance > farthest - 1.0
 
 
-@kernel(counts_references=True)
+@kernel
 def way_back(local: FloatArray) -> float:
     """How far any way for a body near the axis goes back, metres."""
     turned = np.empty_like(local)
@@ -188,7 +188,7 @@ def way_back(local: FloatArray) -> float:
     return farthest_way(turned, BODY_WIDTH, BODY_WIDTH)
 
 
-@kernel(counts_references=True)
+@kernel
 def farthest_way(local: FloatArray, left: float, right: float) -> float:
     """The farthest that any way for a body goes on between the sides, metres."""
     ways = _ways(
@@ -202,7 +202,7 @@ def farthest_way(local: FloatArray, left: float, right: float) -> float:
     return float(ways.max())
 
 
-@kernel(counts_references=True)
+@kernel
 def _ways(lanes: FloatArray) -> FloatArray:
     """How far each way goes on that is as wide as a body: several lanes beside each other."""
     width = min(len(lanes), round(BODY_WIDTH / LANE_SPACING))
@@ -212,7 +212,7 @@ def _ways(lanes: FloatArray) -> FloatArray:
     return ways
 
 
-@kernel(counts_references=True)
+@kernel
 def _lanes(local: FloatArray, start: float, count: int, nearest: float) -> FloatArray:
     """How far each lane goes on from x = `nearest`; they lie at y = start + k * `LANE_SPACING`."""
     lanes = np.full(count, np.inf)

@@ -51,7 +51,7 @@ Frame: TypeAlias = tuple[float, float, float]
 """Pose of an axis or a robot: x, y in metres and heading in radians."""
 
 
-@kernel(counts_references=True)
+@kernel
 def survey(
     walls: FloatArray,
     doors: FloatArray,
@@ -82,7 +82,7 @@ def survey(
     return frame, half_width, end, sides, openings[:count]
 
 
-@kernel(counts_references=True)
+@kernel
 def write_survey(
     walls: FloatArray,
     doors: FloatArray,
@@ -103,7 +103,7 @@ def write_survey(
     return frame, 0.5 * (left + right), end, count
 
 
-@kernel(counts_references=True)
+@kernel
 def axis_heading(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> tuple[FloatArray, float]:
@@ -112,7 +112,7 @@ def axis_heading(
     return solid, prevailing_heading(solid, len(walls), *pose)
 
 
-@kernel(counts_references=True)
+@kernel
 def axis_along(
     solid: FloatArray, x: float, y: float, heading: float
 ) -> tuple[Frame, float, float, float, float, FloatArray]:
@@ -147,7 +147,7 @@ def stands_in(door: FloatArray, x: float, y: float, heading: float) -> bool:
     return bool(across and 0.0 < along < length and abs(beside) < DOORWAY_DEPTH)
 
 
-@kernel(counts_references=True)
+@kernel
 def _solid(
     walls: FloatArray, doors: FloatArray, certain: NDArray[np.bool_], pose: Frame
 ) -> FloatArray:
@@ -225,7 +225,7 @@ def _follow(
     return count
 
 
-@kernel(counts_references=True)
+@kernel
 def _recent(side: FloatArray, k: int, usual: float) -> float:
     """Distance of a side just before probe k, metres; `usual` where it was not seen.
 

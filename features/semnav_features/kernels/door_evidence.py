@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.lines import offset
 from semnav_features.kernels.segmentation import is_return
@@ -50,15 +49,7 @@ far apart there."""
 
 
 @kernel
-def measure_gap(
-    ranges: FloatArray,
-    directions: FloatArray,
-    range_min: float,
-    limit: float,
-    gap: Any,
-    settings: Any,
-    evidence: Any,
-) -> int:
+def measure_gap(gap: Any, settings: Any, scratch: Any, evidence: Any) -> int:
     """Measure how many of the beams between the jambs reach beyond the chord, and how far.
 
     For a unit vector d of a beam and the chord's unit direction u, the sine d x u of the angle
@@ -69,9 +60,11 @@ def measure_gap(
         chord, for then the jamb is only the edge of a shadow (`IN_SHADOW`), if no beam gets deeper
         than a recess (`TOO_SHALLOW`), or if too few pass (`TOO_COVERED`).
     """
+    ranges, directions = scratch.ranges, scratch.directions
+    range_min, limit = scratch.range_min, scratch.limit
     first, last = gap.first, gap.last
-    start_jump = reach_beyond(ranges, directions, range_min, limit, gap, first)
-    end_jump = reach_beyond(ranges, directions, range_min, limit, gap, last)
+    start_jump = reach_beyond(gap, first, scratch)
+    end_jump = reach_beyond(gap, last, scratch)
     if min(start_jump, end_jump) < -settings.door_shadow:
         return IN_SHADOW
     clear = deep = front = 0
@@ -101,36 +94,20 @@ def measure_gap(
 
 
 @kernel
-def reach_beyond(
-    ranges: FloatArray,
-    directions: FloatArray,
-    range_min: float,
-    limit: float,
-    gap: Any,
-    beam: int,
-) -> float:
+def reach_beyond(gap: Any, beam: int, scratch: Any) -> float:
     """How far a beam reaches beyond the chord, along the beam, metres.
 
     `MAX_DEPTH` for a beam without a return.
     """
-    if not is_return(ranges[beam], range_min, limit):
+    measured, directions = scratch.ranges[beam], scratch.directions
+    if not is_return(measured, scratch.range_min, scratch.limit):
         return MAX_DEPTH
     slant = directions[beam, 0] * gap.along_y - directions[beam, 1] * gap.along_x
-    return float(ranges[beam] - gap.distance / slant)
+    return float(measured - gap.distance / slant)
 
 
 @kernel
-def measure_walls(
-    ranges: FloatArray,
-    directions: FloatArray,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    gap: Any,
-    pieces: Any,
-    settings: Any,
-    evidence: Any,
-) -> None:
+def measure_walls(gap: Any, pieces: Any, settings: Any, scratch: Any, evidence: Any) -> None:
     """Measure the walls beside the jambs: how well in line, how long, and how much is missing."""
     before = wall_misfit(gap, -1, pieces, settings)
     after = wall_misfit(gap, 1, pieces, settings)
@@ -138,8 +115,7 @@ def measure_walls(
     evidence.misfit_less = min(before[0], after[0])
     evidence.wall_length_more = max(before[1], after[1])
     evidence.wall_length_less = min(before[1], after[1])
-    sweep = ranges, directions, range_min, limit, beams_per_turn
-    missing_before, missing_after = missing_wall(*sweep, gap, -1), missing_wall(*sweep, gap, 1)
+    missing_before, missing_after = missing_wall(gap, -1, scratch), missing_wall(gap, 1, scratch)
     evidence.missing_wall_more = max(missing_before, missing_after)
     evidence.missing_wall_less = min(missing_before, missing_after)
 
@@ -169,29 +145,19 @@ def measure_place(gap: Any, along_x: float, along_y: float, length: float, evide
 
 
 @kernel
-def missing_wall(
-    ranges: FloatArray,
-    directions: FloatArray,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    gap: Any,
-    step: int,
-) -> float:
+def missing_wall(gap: Any, step: int, scratch: Any) -> float:
     """Length of the chord's line beside a jamb that beams pass, so that no wall is there, metres.
 
     Walks away from the jamb beam by beam. `reached` is how far along the line the walk has come;
     each beam answers for the stretch between the last one's place and its own.
 
     Args:
-        ranges: of the scan, metres.
-        directions: unit vectors of the beams, shape (n, 2).
-        range_min: shortest valid range, metres.
-        limit: longest valid range, metres.
-        beams_per_turn: of a full circle; 0 if the scan is none.
         gap: the candidate.
         step: -1 for the side before its start, 1 for that after its end.
+        scratch: with the scan.
     """
+    ranges, directions, beam_count = scratch.ranges, scratch.directions, scratch.beam_count
+    range_min, limit = scratch.range_min, scratch.limit
     beam: int = gap.first - 1 if step < 0 else gap.last + 1
     x, y = (gap.start_x, gap.start_y) if step < 0 else (gap.end_x, gap.end_y)
     origin = gap.along_x * x + gap.along_y * y
@@ -199,7 +165,7 @@ def missing_wall(
     spacing = gap.start_spacing if step < 0 else gap.end_spacing
     step *= max(int(FLANK_SPACING / spacing), 1)  # from here on: beams from look to look
     missing = reached = 0.0
-    while 0 <= beam < len(ranges) and reached < FLANK_LENGTH:
+    while 0 <= beam < beam_count and reached < FLANK_LENGTH:
         dx, dy = directions[beam, 0], directions[beam, 1]
         slant = dx * gap.along_y - dy * gap.along_x
         if slant <= MIN_INCIDENCE_SINE:
@@ -216,7 +182,7 @@ def missing_wall(
             reached = place
         beam += step
         if beam < 0:  # a full circle goes on at its end; else 0 is added and the walk ends
-            beam += beams_per_turn
+            beam += scratch.beams_per_turn
     return missing
 
 

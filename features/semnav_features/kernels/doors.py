@@ -31,36 +31,13 @@ farther apart, but the jamb is still taken to lie this close to the last point."
 
 
 @kernel
-def find_doors(
-    ranges: FloatArray,
-    directions: FloatArray,
-    increment: float,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    groups: int,
-    pieces: int,
-    settings: Any,
-    scratch: Any,
-    doors: np.ndarray,
-) -> int:
+def find_doors(groups: int, pieces: int, settings: Any, scratch: Any, doors: np.ndarray) -> int:
     """Score every pair of jambs and write the best of those that overlap, in beam order.
 
     Returns:
         How many doors were written.
     """
-    found = find_candidates(
-        ranges,
-        directions,
-        increment,
-        range_min,
-        limit,
-        beams_per_turn,
-        groups,
-        pieces,
-        settings,
-        scratch,
-    )
+    found = find_candidates(groups, pieces, settings, scratch)
     candidates = scratch.candidates[:found]
     keep_best(candidates, settings.door_width_min)
     count = 0
@@ -72,25 +49,14 @@ def find_doors(
 
 
 @kernel
-def find_candidates(
-    ranges: FloatArray,
-    directions: FloatArray,
-    increment: float,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    groups: int,
-    pieces: int,
-    settings: Any,
-    scratch: Any,
-) -> int:
+def find_candidates(groups: int, pieces: int, settings: Any, scratch: Any) -> int:
     """Write gaps that can be doors, with their evidence and score; returns how many.
 
     Starts and ends of openings are sorted by beam. So `low`, the first end that is far enough from
     the start, only grows, and the inner loop stops at the last end that is near enough.
     """
     starts, ends = find_jambs(groups, pieces, scratch)
-    found_pieces = scratch.pieces[:pieces]
+    found_pieces, increment = scratch.pieces[:pieces], scratch.increment
     along_x, along_y, length = longest_wall(found_pieces)
     widest = settings.door_width_max + settings.door_width_tolerance + 2.0 * MAX_BEAM_SPACING
     found = low = 0
@@ -106,19 +72,9 @@ def find_candidates(
             gap, evidence = scratch.candidates[found], scratch.evidence[found]
             if set_gap(start, end, increment, settings, gap) != FITS:
                 continue
-            if measure_gap(ranges, directions, range_min, limit, gap, settings, evidence) != FITS:
+            if measure_gap(gap, settings, scratch, evidence) != FITS:
                 continue
-            measure_walls(
-                ranges,
-                directions,
-                range_min,
-                limit,
-                beams_per_turn,
-                gap,
-                found_pieces,
-                settings,
-                evidence,
-            )
+            measure_walls(gap, found_pieces, settings, scratch, evidence)
             measure_place(gap, along_x, along_y, length, evidence)
             numbers = scratch.evidence[found : found + 1].view(np.float64)
             gap.confidence = score(numbers, scratch.scorer)

@@ -22,63 +22,55 @@ ROUNDING_SHARE = 1e-9
 
 
 @kernel
-def filter_ranges(
-    ranges: FloatArray,
-    increment: float,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    settings: Any,
-    scratch: Any,
-) -> None:
+def filter_ranges(ranges: FloatArray, settings: Any, scratch: Any) -> None:
     """Remove mixed pixels if `veil_angle` is set, and take medians if `median_beams` is.
 
     The result is written to `scratch.filtered`. In a full circle of `beams_per_turn` beams, the
     first comes after the last, and beams beyond it repeat the first ones. `beams_per_turn` is 0
     for other scans.
+
+    Args:
+        ranges: of the scan, metres.
+        settings: of the extractor.
+        scratch: with the limits of the scan.
     """
+    beams_per_turn = scratch.beams_per_turn
     beams = beams_per_turn if 0 < beams_per_turn < len(ranges) else len(ranges)
     filtered, half = scratch.filtered[: len(ranges)], settings.median_beams
     if settings.veil_angle > 0.0:
         clear = scratch.clear[: len(ranges)]
         for i in range(beams):
-            veiled = is_mixed_pixel(
-                ranges, i, increment, range_min, limit, beams_per_turn, settings
-            )
+            veiled = is_mixed_pixel(ranges, i, settings, scratch)
             clear[i] = math.nan if veiled else ranges[i]
-        repeat_first_beams(ranges, beams, range_min, limit, clear)
+        repeat_first_beams(ranges, beams, clear, scratch)
         ranges = clear
     for i in range(len(ranges)):
         filtered[i] = ranges[i]
     if half > 0:
-        reach = breakpoint_terms(increment, settings)
+        reach = breakpoint_terms(scratch.increment, settings)
         for i in range(beams):
-            filtered[i] = median_range(
-                ranges, i, increment, range_min, limit, beams_per_turn, half, reach, scratch.window
-            )
-        repeat_first_beams(ranges, beams, range_min, limit, filtered)
+            filtered[i] = median_range(ranges, i, half, reach, scratch)
+        repeat_first_beams(ranges, beams, filtered, scratch)
 
 
 @kernel
-def repeat_first_beams(
-    ranges: FloatArray, beams: int, range_min: float, limit: float, out: FloatArray
-) -> None:
+def repeat_first_beams(ranges: FloatArray, beams: int, out: FloatArray, scratch: Any) -> None:
     """Copy the filtered first beams to those beyond a full turn, which look the same way.
 
     Where the first beam had no return, the later one keeps its own range.
     """
     for i in range(beams, len(ranges)):
-        seen = is_return(ranges[i - beams], range_min, limit)
+        seen = is_return(ranges[i - beams], scratch.range_min, scratch.limit)
         out[i] = out[i - beams] if seen else ranges[i]
 
 
 @kernel
-def return_at(
-    ranges: FloatArray, i: int, range_min: float, limit: float, beams_per_turn: int
-) -> float:
+def return_at(ranges: FloatArray, i: int, scratch: Any) -> float:
     """The range of beam i, counted around a full circle; NaN if there is no return."""
-    beam = i % beams_per_turn if beams_per_turn > 0 else i
-    if beam < 0 or beam >= len(ranges) or not is_return(ranges[beam], range_min, limit):
+    beam = i % scratch.beams_per_turn if scratch.beams_per_turn > 0 else i
+    if beam < 0 or beam >= len(ranges):
+        return math.nan
+    if not is_return(ranges[beam], scratch.range_min, scratch.limit):
         return math.nan
     return float(ranges[beam])
 
@@ -106,25 +98,17 @@ def flat_slope_sign(
 
 
 @kernel
-def is_mixed_pixel(
-    ranges: FloatArray,
-    i: int,
-    increment: float,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    settings: Any,
-) -> bool:
+def is_mixed_pixel(ranges: FloatArray, i: int, settings: Any, scratch: Any) -> bool:
     """Whether a beam ended in the air, having met the edge of one surface and another one behind.
 
     Its range is then a mixture of both. From the near surface to the far one, the lines between
     neighbouring points lie nearly along the beams, flatter than `veil_angle`. The same holds on a
     wall that is met as flatly; but mixed pixels are one or two points, in line with no wall.
     """
-    at = return_at(ranges, i, range_min, limit, beams_per_turn)
-    slack = 3.0 * settings.sigma
-    before = return_at(ranges, i - 1, range_min, limit, beams_per_turn)
-    after = return_at(ranges, i + 1, range_min, limit, beams_per_turn)
+    at = return_at(ranges, i, scratch)
+    slack, increment = 3.0 * settings.sigma, scratch.increment
+    before = return_at(ranges, i - 1, scratch)
+    after = return_at(ranges, i + 1, scratch)
     sense = flat_slope_sign(before, at, increment, settings.veil_angle, slack)
     if sense == 0 or flat_slope_sign(at, after, increment, settings.veil_angle, slack) != sense:
         return False
@@ -132,33 +116,25 @@ def is_mixed_pixel(
     for way in (-1, 1):
         near, k = (before, -2) if way < 0 else (after, 2)
         while veil <= MAX_MIXED_PIXELS:
-            beyond = return_at(ranges, i + k, range_min, limit, beams_per_turn)
+            beyond = return_at(ranges, i + k, scratch)
             if way * flat_slope_sign(near, beyond, increment, settings.veil_angle, slack) != sense:
                 break
             veil, near, k = veil + 1, beyond, k + way
     if veil > MAX_MIXED_PIXELS:
         return False
-    return not is_on_flat_wall(ranges, i, increment, range_min, limit, beams_per_turn, settings)
+    return not is_on_flat_wall(ranges, i, settings, scratch)
 
 
 @kernel
-def is_on_flat_wall(
-    ranges: FloatArray,
-    i: int,
-    increment: float,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    settings: Any,
-) -> bool:
+def is_on_flat_wall(ranges: FloatArray, i: int, settings: Any, scratch: Any) -> bool:
     """Whether a beam and the three before it or after it end on one line that is met flatly."""
     for way in (-1, 1):
-        at = return_at(ranges, i, range_min, limit, beams_per_turn)
-        first = return_at(ranges, i + way, range_min, limit, beams_per_turn)
-        second = return_at(ranges, i + 2 * way, range_min, limit, beams_per_turn)
-        third = return_at(ranges, i + 3 * way, range_min, limit, beams_per_turn)
-        is_wall = continues_line(third, second, first, increment, settings)
-        if is_wall and continues_line(second, first, at, increment, settings):
+        at = return_at(ranges, i, scratch)
+        first = return_at(ranges, i + way, scratch)
+        second = return_at(ranges, i + 2 * way, scratch)
+        third = return_at(ranges, i + 3 * way, scratch)
+        is_wall = continues_line(third, second, first, scratch.increment, settings)
+        if is_wall and continues_line(second, first, at, scratch.increment, settings):
             return True
     return False
 
@@ -181,15 +157,7 @@ def continues_line(first: float, second: float, third: float, angle: float, sett
 
 @kernel
 def median_range(
-    ranges: FloatArray,
-    i: int,
-    increment: float,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    half: int,
-    reach: ThresholdTerms,
-    window: FloatArray,
+    ranges: FloatArray, i: int, half: int, reach: ThresholdTerms, scratch: Any
 ) -> float:
     """The median of a beam and the `half` beams on either side, where that moves no edge.
 
@@ -197,16 +165,16 @@ def median_range(
     outlier: a run of at most `half` beams that is joined to nothing on either side. Elsewhere the
     range stays as it is.
     """
-    at = return_at(ranges, i, range_min, limit, beams_per_turn)
-    left = joined_beams(ranges, i, -1, increment, range_min, limit, beams_per_turn, half, reach)
-    right = joined_beams(ranges, i, 1, increment, range_min, limit, beams_per_turn, half, reach)
+    at = return_at(ranges, i, scratch)
+    left = joined_beams(ranges, i, -half, reach, scratch)
+    right = joined_beams(ranges, i, half, reach, scratch)
     within = left == half and right == half
     alone = min(left, right) >= 0 and left + right < half
     if not (within or alone):
         return float(ranges[i])
-    count = 0
+    count, window = 0, scratch.window
     for k in range(i - half, i + half + 1):
-        value = return_at(ranges, k, range_min, limit, beams_per_turn)
+        value = return_at(ranges, k, scratch)
         if value == value:
             place = count
             while place > 0 and window[place - 1] > value:
@@ -219,29 +187,22 @@ def median_range(
 
 @kernel
 def joined_beams(
-    ranges: FloatArray,
-    i: int,
-    way: int,
-    increment: float,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    half: int,
-    reach: ThresholdTerms,
+    ranges: FloatArray, i: int, steps: int, reach: ThresholdTerms, scratch: Any
 ) -> int:
-    """How many of the next `half` beams one way are joined to beam i and one another.
+    """How many of the next beams are joined to beam i and one another; -steps of those before it.
 
     -1 if a beam without a return follows them: what is there is not known.
     """
     nearer, farther, previous, offset = reach
-    here = return_at(ranges, i, range_min, limit, beams_per_turn)
+    way, half = 1 if steps > 0 else -1, abs(steps)
+    here = return_at(ranges, i, scratch)
     for k in range(half):
-        there = return_at(ranges, i + way * (k + 1), range_min, limit, beams_per_turn)
+        there = return_at(ranges, i + way * (k + 1), scratch)
         if not (here == here and there == there):
             return -1
         first = here if way > 0 else there
         most = nearer * min(here, there) + farther * max(here, there) + previous * first + offset
-        if point_distance(here, there, increment) > most:
+        if point_distance(here, there, scratch.increment) > most:
             return k
         here = there
     return half

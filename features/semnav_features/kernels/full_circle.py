@@ -46,21 +46,13 @@ def find_seam(pieces: int, scratch: Any) -> tuple[int, bool]:
 
 
 @kernel
-def unroll(
-    ranges: FloatArray,
-    directions: FloatArray,
-    increment: float,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    seam: int,
-    scratch: Any,
-) -> None:
+def unroll(ranges: FloatArray, directions: FloatArray, seam: int, scratch: Any) -> None:
     """Write the circle to `scratch`, twice over, from the beam at the seam on.
 
     Missing beams have no return. If the last beam repeats the first direction it stands in for a
     first beam without return.
     """
+    increment, beams_per_turn = scratch.increment, scratch.beams_per_turn
     given = min(len(ranges), beams_per_turn)
     for i in range(beams_per_turn):
         beam = seam + i if seam + i < beams_per_turn else seam + i - beams_per_turn
@@ -73,11 +65,13 @@ def unroll(
                 math.sin((beam - given + 1) * increment),
             )
             x, y = c * x - s * y, s * x + c * y
-        if beam == 0 and len(ranges) > beams_per_turn and not is_return(distance, range_min, limit):
+        is_seen = is_return(distance, scratch.range_min, scratch.limit)
+        if beam == 0 and len(ranges) > beams_per_turn and not is_seen:
             distance = ranges[beams_per_turn]
         for k in (i, i + beams_per_turn):
-            scratch.circle_ranges[k] = distance
-            scratch.circle_directions[k, 0], scratch.circle_directions[k, 1] = x, y
+            scratch.ranges[k] = distance
+            scratch.directions[k, 0], scratch.directions[k, 1] = x, y
+    scratch.beam_count, scratch.known_directions = 2 * beams_per_turn, 0
 
 
 @kernel
@@ -89,7 +83,7 @@ def close_seam(pieces: int, scratch: Any) -> None:
 
 
 @kernel
-def repeat_pieces(pieces: int, points: int, beams_per_turn: int, scratch: Any) -> int:
+def repeat_pieces(pieces: int, points: int, scratch: Any) -> int:
     """Append the pieces of the first half turn once more, a full turn later.
 
     So a gap that begins before the seam and ends behind it is found like any other.
@@ -98,6 +92,7 @@ def repeat_pieces(pieces: int, points: int, beams_per_turn: int, scratch: Any) -
         How many pieces there are with them.
     """
     xs, ys, beams = scratch.xs, scratch.ys, scratch.beams
+    beams_per_turn = scratch.beams_per_turn
     count = pieces
     for k in range(pieces):
         if 2 * beams[scratch.pieces[k].first] >= beams_per_turn:

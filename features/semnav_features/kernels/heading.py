@@ -26,7 +26,7 @@ MAX_SPREAD = math.radians(5.0)
 """Walls within this angle of the most common direction share in the mean, radians."""
 
 
-@kernel(counts_references=True)
+@kernel
 def prevailing_heading(solid: FloatArray, walls: int, x: float, y: float, heading: float) -> float:
     """The direction, within 45 degrees of `heading`, that most of the wall in view runs along.
 
@@ -62,7 +62,7 @@ def prevailing_heading(solid: FloatArray, walls: int, x: float, y: float, headin
     return heading + mean / total if total > 0.0 else heading
 
 
-@kernel(counts_references=True)
+@kernel
 def _first_hits(
     solid: FloatArray, x: float, y: float, heading: float
 ) -> tuple[NDArray[np.int64], FloatArray]:
@@ -136,7 +136,7 @@ def _fold(angles: float) -> float:
     return angles - math.pi * math.floor(angles / math.pi + 0.5)
 
 
-@kernel(counts_references=True)
+@kernel
 def _commonest(angles: FloatArray, length: FloatArray) -> float:
     """The middle of the three neighbouring bins that hold most length, radians; inf without any.
 

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import io
+import os
 import pickle
 import zlib
 from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext, suppress
+from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from numba.core.caching import _Cache
+from numba.core import config
 from numba.core.compiler import CompileResult
 from numba.core.environment import Environment, lookup_environment
 from numba.core.runtime.nrt import rtsys
@@ -65,13 +66,28 @@ def _environment(module: str, constants: list[Any], name: str) -> Environment:
     return found
 
 
-class KernelCache(_Cache):
-    """Keeps one kernel between runs.
+def keep_in_files(compiled: Any, function: Callable[..., Any]) -> None:
+    """Keep a function that numba compiles between runs.
 
-    Numba's own cache looks at the file of the kernel alone, not at what it calls, and counts its
-    files in an index that two processes can spoil. Here the folder's name tells the version of all
-    sources, and a file's name what is in it. No fault of a file is ever an error: what cannot be
-    read is compiled anew, and what cannot be written is not kept.
+    Args:
+        compiled: numba's dispatcher or callback of it.
+        function: as it stands in its module.
+    """
+    if os.environ.get("SEMNAV_PLAIN_NUMBA"):
+        # numba's own folder may be one where nothing can be written
+        config.CACHE_DIR = str(cache_folder())  # type: ignore[attr-defined]
+        compiled.enable_caching()
+    else:
+        compiled._cache = KernelCache(function)
+
+
+class KernelCache:
+    """Keeps one kernel between runs, in the place of numba's own cache.
+
+    That looks at the file of the kernel alone, not at what it calls, and counts its files in an
+    index that two processes can spoil; and it loads all that compiling needs. Here the folder's
+    name tells the version of all sources, and a file's name what is in it. No fault of a file is
+    ever an error: what cannot be read is compiled anew, and what cannot be written is not kept.
     """
 
     def __init__(self, function: Callable[..., Any]) -> None:
@@ -87,57 +103,54 @@ class KernelCache(_Cache):
         """Folder of the files."""
         return str(cache_folder())
 
-    def turn_to_compile(self, sig: Any, codegen: Any) -> AbstractContextManager[None]:
-        """What a kernel is compiled in: other processes that need it wait for the end."""
-        path = self._entry(sig, codegen)[0]
-        if not self._enabled or path.exists():
-            return nullcontext()
-        from semnav_features.kernels.compile_turn import compile_turn  # seldom needed
-
-        return compile_turn(path)
-
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The kernel compiled for a signature, or None."""
+        """The kernel compiled for a signature; None if it is to be compiled, by this process."""
         if not self._enabled:
             return None
         rtsys.initialize(target_context)  # without what compiling needs, which takes long to import
         path, key = self._entry(sig, target_context.codegen())
-        try:
-            kept, payload = _KernelReader(io.BytesIO(unsealed(path.read_bytes()))).load()
-            return CompileResult._rebuild(target_context, *payload) if kept == key else None
-        except FileNotFoundError:
-            return None
-        except Exception:  # a damaged file may raise anything
-            with suppress(OSError):
-                path.unlink()
-            return None
+        found = _loaded(path, key, target_context)
+        if found is None:
+            from semnav_features.kernels.compile_turn import TURNS  # seldom needed
+
+            TURNS.begin(path)  # others may have compiled it meanwhile
+            found = _loaded(path, key, target_context)
+            if found is not None:
+                TURNS.end(path)
+        return found
 
     def save_overload(self, sig: Any, data: Any) -> None:
         """Keep what was compiled for a signature, if it can be kept."""
-        if not self._enabled or data.lifted or data.library.has_dynamic_globals:
+        if not self._enabled:
             return
+        from semnav_features.kernels.compile_turn import TURNS
         from semnav_features.writing import write_file  # only what was compiled is written
 
         path, key = self._entry(sig, data.codegen)
-        with suppress(Exception):  # a full disk, or what no pickle can hold
-            write_file(path, sealed(dumps((key, data._reduce()))))
-
-    def enable(self) -> None:
-        """Use the files."""
-        self._enabled = True
+        if not data.lifted and not data.library.has_dynamic_globals:
+            with suppress(Exception):  # a full disk, or what no pickle can hold
+                write_file(path, sealed(dumps((key, data._reduce()))))
+        TURNS.end(path)
 
     def disable(self) -> None:
         """Do not use the files."""
         self._enabled = False
-
-    def flush(self) -> None:
-        """Remove the kernel's files."""
-        for path in cache_folder().glob(f"{self._name}.*"):
-            with suppress(OSError):
-                path.unlink()
 
     def _entry(self, sig: Any, codegen: Any) -> tuple[Path, str]:
         """The file for a signature and these settings, and all that it depends on."""
         settings = *codegen.magic_tuple(), *compiler_settings()
         key = repr((self._name, sig, settings, self._code))
         return cache_folder() / f"{self._name}.{sha256(key.encode()).hexdigest()[:20]}.bin", key
+
+
+def _loaded(path: Path, key: str, target_context: Any) -> Any:
+    """The kernel in a file; None if there is none, and if it is damaged, which removes it."""
+    try:
+        kept, payload = _KernelReader(io.BytesIO(unsealed(path.read_bytes()))).load()
+        return CompileResult._rebuild(target_context, *payload) if kept == key else None
+    except FileNotFoundError:
+        return None
+    except Exception:  # a damaged file may raise anything
+        with suppress(OSError):
+            path.unlink()
+        return None

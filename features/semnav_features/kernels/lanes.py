@@ -122,7 +122,8 @@ class _Row:
 def _fits(kind: Any, given: Any) -> bool:
     """Whether a type is of a kind."""
     if kind is _Row:
-        return bool(given == types.Array(types.float64, 1, "C"))
+        is_row = isinstance(given, types.Array) and (given.ndim, given.layout) == (1, "C")
+        return bool(is_row and given.dtype == types.float64)
     return bool(isinstance(given, kind))
 
 

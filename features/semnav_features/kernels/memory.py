@@ -156,7 +156,7 @@ def how_many_count(walls: FloatArray, doors: Any, state: Any) -> tuple[int, int]
     return wall_total, door_total
 
 
-@kernel(counts_references=True)
+@kernel
 def what_counts(
     walls: FloatArray, doors: Any, state: Any
 ) -> tuple[FloatArray, FloatArray, FloatArray]:

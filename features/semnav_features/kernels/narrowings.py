@@ -54,7 +54,7 @@ Table: TypeAlias = NDArray[np.int64]
 """By pieces along the sides of an opening: how far outside the jamb the innermost side lies."""
 
 
-@kernel(counts_references=True)
+@kernel
 def is_narrowing(door: FloatArray, solid: FloatArray) -> bool:
     """Whether an opening across a corridor is no doorway, because the corridor goes on through it.
 
@@ -81,7 +81,7 @@ def is_narrowing(door: FloatArray, solid: FloatArray) -> bool:
     return False
 
 
-@kernel(counts_references=True)
+@kernel
 def _sides(door: FloatArray, solid: FloatArray) -> tuple[Table, Table]:
     """Record where sides run along the direction through the opening.
 

@@ -33,7 +33,7 @@ MIN_SWEEP_GAIN = 1e-5
 """A sweep over all vertices that gains less is the last, square metres."""
 
 
-@kernel(counts_references=True)
+@kernel
 def refine_vertices(
     directions: FloatArray,
     ranges: FloatArray,
@@ -68,7 +68,7 @@ def refine_vertices(
     return vertices
 
 
-@kernel(counts_references=True)
+@kernel
 def move_vertex(
     directions: FloatArray,
     ranges: FloatArray,
@@ -110,7 +110,7 @@ def move_vertex(
     return start - cost
 
 
-@kernel(counts_references=True)
+@kernel
 def is_in_order(
     before: Vector, at: Vector, after: Vector, ray: Vector, left: bool, right: bool
 ) -> bool:
@@ -122,7 +122,7 @@ def is_in_order(
     )
 
 
-@kernel(counts_references=True)
+@kernel
 def first_after(directions: FloatArray, low: int, high: int, vertex: Vector) -> int:
     """The first of the points low to high that does not lie clockwise of the vertex."""
     while low < high and directions[low, 1] * vertex[0] < directions[low, 0] * vertex[1]:
@@ -130,7 +130,7 @@ def first_after(directions: FloatArray, low: int, high: int, vertex: Vector) -> 
     return low
 
 
-@kernel(counts_references=True)
+@kernel
 def two_sided_cost(
     directions: FloatArray,
     ranges: FloatArray,
@@ -146,7 +146,7 @@ def two_sided_cost(
     return float(cost + line_cost(directions, ranges, middle, high, at, after))
 
 
-@kernel(counts_references=True)
+@kernel
 def line_cost(
     directions: FloatArray, ranges: FloatArray, low: int, high: int, a: Vector, b: Vector
 ) -> float:
@@ -161,7 +161,7 @@ def line_cost(
     return total
 
 
-@kernel(counts_references=True)
+@kernel
 def normal_equations(
     directions: FloatArray,
     ranges: FloatArray,
@@ -184,7 +184,7 @@ def normal_equations(
     )
 
 
-@kernel(counts_references=True)
+@kernel
 def one_sided_equations(
     directions: FloatArray,
     ranges: FloatArray,
@@ -217,7 +217,7 @@ def one_sided_equations(
     return xx, xy, yy, gradient_x, gradient_y
 
 
-@kernel(counts_references=True)
+@kernel
 def free_step(system: System) -> Vector:
     """The damped Gauss-Newton step of a vertex that may move anywhere."""
     xx, xy, yy, x, y = system
@@ -226,7 +226,7 @@ def free_step(system: System) -> Vector:
     return (xy * y - yy * x) / determinant, (xy * x - xx * y) / determinant
 
 
-@kernel(counts_references=True)
+@kernel
 def step_along(system: System, ray: Vector) -> Vector:
     """The same for a vertex that may only move along its beam."""
     xx, xy, yy, x, y = system

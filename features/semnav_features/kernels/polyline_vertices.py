@@ -17,7 +17,7 @@ from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 
 
-@kernel(counts_references=True)
+@kernel
 def chord_cost(
     directions: FloatArray, ranges: FloatArray, first: int, last: int, limit: float
 ) -> float:
@@ -46,7 +46,7 @@ def chord_cost(
     return total
 
 
-@kernel(counts_references=True)
+@kernel
 def choose_vertices(
     directions: FloatArray,
     ranges: FloatArray,
@@ -89,7 +89,7 @@ def choose_vertices(
     return trace(done, linked, before)
 
 
-@kernel(counts_references=True)
+@kernel
 def link(
     cost: float,
     first: int,
@@ -106,7 +106,7 @@ def link(
             before[v, last] = first
 
 
-@kernel(counts_references=True)
+@kernel
 def trace(
     done: FloatArray, linked: FloatArray, before: NDArray[np.int64]
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:

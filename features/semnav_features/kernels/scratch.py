@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from functools import lru_cache
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,24 +65,37 @@ MAX_MEDIAN_BEAMS = 4
 """Largest number of beams on either side in a median: fewer than a wall has."""
 
 
-class Scratch(NamedTuple):
-    """Working memory of the extraction; what it holds does not matter between calls.
+SWEEP_CAPACITY = 2048
+"""Beams for which working memory has room at least. Its shape belongs to the compiled kernels, so
+all lidars of up to so many beams share theirs; twice as many are compiled anew."""
 
-    Below, n is the number of beams and `MAX_MISSING_BEAMS` more.
+
+class Scratch(Protocol):
+    """Working memory of the extraction of one scan; what it holds does not matter between calls.
+
+    It is one record, which kernels hand on as one pointer. Below, n is the number of beams for
+    which it has room, with `MAX_MISSING_BEAMS` more.
 
     Attributes:
+        angle_min: direction of the first beam, radians.
+        increment: angle between the beams of the scan, radians.
+        range_min: shortest valid range, metres.
+        limit: returns at or beyond it do not count, metres.
+        beam_count: how many of `ranges` and `directions` are used.
+        known_directions: how many rows of `directions` are those of the beams from `angle_min` on.
+        beams_per_turn: beams of a full circle, which is looked at from its seam on; else 0.
+        ranges: what features are looked for in, metres, shape (2 n,); a full circle twice over.
+        directions: unit vectors of its beams, shape (2 n, 2).
         clear: ranges without mixed pixels, shape (n,).
         filtered: what the filters made of the ranges, shape (n,).
         window: ranges of one median in order, shape (9,).
-        circle_ranges: a full circle unrolled twice over, shape (2 n,).
-        circle_directions: unit vectors of its beams, shape (2 n, 2).
         beam_xs: x of each beam's point, metres, without a return anything, shape (n + `WIDTH`,).
         beam_ys: y of each beam's point.
         xs: x of the valid points in beam order, metres, shape (2 n + `WIDTH`,): in a full circle
             those of the first half turn come once more.
         ys: y of the valid points, shape (2 n + `WIDTH`,).
         beams: their beam indices, shape (2 n + `WIDTH`,).
-        joined: whether a beam's point is joined to that before it, shape (8 k,) with 8 k > n.
+        joined: 1 where a beam's point is joined to that before it, shape (8 k,) with 8 k > n.
         group_first: first point of each connected group, shape (n + 1,).
         stack: split points still to be visited, shape (n,).
         table: rows for one group's points, whose columns `kernels.optimal_partition` or
@@ -102,17 +116,24 @@ class Scratch(NamedTuple):
         corner_ends: the walls that end and start at each corner or -1, two columns.
     """
 
+    angle_min: float
+    increment: float
+    range_min: float
+    limit: float
+    beam_count: int
+    known_directions: int
+    beams_per_turn: int
+    ranges: FloatArray
+    directions: FloatArray
     clear: FloatArray
     filtered: FloatArray
     window: FloatArray
-    circle_ranges: FloatArray
-    circle_directions: FloatArray
     beam_xs: FloatArray
     beam_ys: FloatArray
     xs: FloatArray
     ys: FloatArray
     beams: NDArray[np.int64]
-    joined: NDArray[np.bool_]
+    joined: NDArray[np.uint8]
     group_first: NDArray[np.int64]
     stack: NDArray[np.int64]
     table: FloatArray
@@ -132,8 +153,8 @@ class Scratch(NamedTuple):
     corner_ends: NDArray[np.int64]
 
 
-class Features(NamedTuple):
-    """Arrays the kernels write a scene into; see `layout`.
+class Features(Protocol):
+    """The arrays into which kernels write a scene, as one record, dtype `FEATURES`; see `layout`.
 
     Attributes:
         walls: dtype `WALL`.
@@ -152,48 +173,72 @@ class Features(NamedTuple):
     counts: NDArray[np.int64]
 
 
-def allocate_scratch(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> Scratch:
-    """Working memory for scans of up to that many beams; not filled, which would take longer."""
-    beams += MAX_MISSING_BEAMS
-    return Scratch(
-        clear=np.empty(beams),
-        filtered=np.empty(beams),
-        window=np.empty(2 * MAX_MEDIAN_BEAMS + 1),
-        circle_ranges=np.empty(2 * beams),
-        circle_directions=np.empty((2 * beams, 2)),
-        beam_xs=np.empty(beams + WIDTH),
-        beam_ys=np.empty(beams + WIDTH),
-        xs=np.empty(2 * beams + WIDTH),
-        ys=np.empty(2 * beams + WIDTH),
-        beams=np.empty(2 * beams + WIDTH, np.int64),
-        joined=np.empty(beams + 8 - beams % 8, np.bool_),
-        group_first=np.empty(beams + 1, np.int64),
-        stack=np.empty(beams, np.int64),
-        table=np.empty((beams + 1, 8)),
-        vertices=np.empty(beams + 1, np.int64),
-        pieces=np.empty(2 * beams, PIECE),
-        start_jambs=np.empty(MAX_JAMBS, JAMB),
-        end_jambs=np.empty(MAX_JAMBS, JAMB),
-        candidates=np.empty(door_candidates, CANDIDATE),
-        evidence=np.empty(door_candidates, EVIDENCE),
-        scorer=default_scorer(),
-        wall_piece=np.empty(CAPACITY["walls"], np.int64),
-        near_pieces=np.empty(CAPACITY["walls"], np.int64),
-        middle_xs=np.empty(CAPACITY["walls"] + WIDTH),
-        middle_ys=np.empty(CAPACITY["walls"] + WIDTH),
-        half_lengths=np.empty(CAPACITY["walls"] + WIDTH),
-        joints=np.empty(CAPACITY["walls"], JOINT),
-        corner_ends=np.empty((CAPACITY["corners"], 2), np.int64),
+FEATURES = np.dtype(
+    [
+        ("walls", WALL, CAPACITY["walls"]),
+        ("doors", DOOR, CAPACITY["doors"]),
+        ("corners", CORNER, CAPACITY["corners"]),
+        ("corridors", CORRIDOR, CAPACITY["corridors"]),
+        ("arcs", ARC, CAPACITY["arcs"]),
+        ("counts", "i8", COUNTS_SIZE),
+    ]
+)
+"""Of `Features`."""
+
+
+@lru_cache(maxsize=16)
+def scratch_dtype(beams: int, door_candidates: int) -> np.dtype[Any]:
+    """Of `Scratch` with room for that many beams and candidates; every field is aligned to 8 bytes.
+
+    Args:
+        beams: of a scan; the room is the next power of two, so that few kernels are compiled.
+        door_candidates: entries of `candidates`.
+    """
+    n = max(SWEEP_CAPACITY, 1 << (beams - 1).bit_length()) + MAX_MISSING_BEAMS
+    walls, padded = CAPACITY["walls"], 2 * n + WIDTH
+    numbers, counts = (
+        ("angle_min", "increment", "range_min", "limit"),
+        ("beam_count", "known_directions", "beams_per_turn"),
     )
+    return np.dtype(
+        [(name, "f8") for name in numbers]
+        + [(name, "i8") for name in counts]
+        + [("ranges", "f8", 2 * n), ("directions", "f8", (2 * n, 2))]
+        + [(name, "f8", n) for name in ("clear", "filtered")]
+        + [("window", "f8", 2 * MAX_MEDIAN_BEAMS + 1)]
+        + [(name, "f8", n + WIDTH) for name in ("beam_xs", "beam_ys")]
+        + [("xs", "f8", padded), ("ys", "f8", padded), ("beams", "i8", padded)]
+        + [("joined", "u1", n + 8 - n % 8), ("group_first", "i8", n + 1), ("stack", "i8", n)]
+        + [("table", "f8", (n + 1, 8)), ("vertices", "i8", n + 1), ("pieces", PIECE, 2 * n)]
+        + [(name, JAMB, MAX_JAMBS) for name in ("start_jambs", "end_jambs")]
+        + [("candidates", CANDIDATE, door_candidates), ("evidence", EVIDENCE, door_candidates)]
+        + [("scorer", "f8", default_scorer().shape)]
+        + [(name, "i8", walls) for name in ("wall_piece", "near_pieces")]
+        + [(name, "f8", walls + WIDTH) for name in ("middle_xs", "middle_ys", "half_lengths")]
+        + [("joints", JOINT, walls), ("corner_ends", "i8", (CAPACITY["corners"], 2))]
+    )
+
+
+def scratch_array(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> np.recarray:
+    """One `Scratch` in an array, shape (1,), for scans of up to that many beams.
+
+    Its tables are not filled, which would take longer than a scan.
+    """
+    scratch = np.recarray(1, scratch_dtype(beams, door_candidates))
+    scratch.known_directions, scratch.scorer[0] = 0, default_scorer()
+    return scratch
+
+
+def allocate_scratch(beams: int, door_candidates: int = MAX_DOOR_CANDIDATES) -> Scratch:
+    """Working memory for scans of up to that many beams."""
+    return cast(Scratch, scratch_array(beams, door_candidates)[0])
+
+
+def features_of(array: np.ndarray) -> Features:
+    """What stands in an array of dtype `FEATURES`, shape (1,); it is shared."""
+    return cast(Features, array.view(np.recarray)[0])
 
 
 def allocate_features() -> Features:
     """Empty arrays of the standard capacity."""
-    return Features(
-        walls=np.zeros(CAPACITY["walls"], WALL),
-        doors=np.zeros(CAPACITY["doors"], DOOR),
-        corners=np.zeros(CAPACITY["corners"], CORNER),
-        corridors=np.zeros(CAPACITY["corridors"], CORRIDOR),
-        arcs=np.zeros(CAPACITY["arcs"], ARC),
-        counts=np.zeros(COUNTS_SIZE, np.int64),
-    )
+    return features_of(np.zeros(1, FEATURES))

@@ -5,9 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from semnav_features.frames import FloatArray
 from semnav_features.kernels.breakpoints import breakpoint_terms
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.lanes import WIDTH, load, store
@@ -26,16 +24,8 @@ def is_return(distance: float, range_min: float, limit: float) -> bool:
 
 
 @kernel
-def group_points(
-    ranges: FloatArray,
-    directions: FloatArray,
-    increment: float,
-    range_min: float,
-    limit: float,
-    settings: Any,
-    scratch: Any,
-) -> tuple[Any, Any]:
-    """Valid points and where connected groups of them begin.
+def group_points(count: int, settings: Any, scratch: Any) -> tuple[Any, Any]:
+    """Valid points of the first `count` beams and where connected groups of them begin.
 
     Two neighbours are joined while they are no farther apart than the breakpoint rule allows. A
     gap of a few missing returns is bridged if, besides, nothing could pass it.
@@ -43,18 +33,18 @@ def group_points(
     Returns:
         How many points and how many groups (int64) were written to `scratch`.
     """
-    lowest, one = max(range_min, SMALLEST_FLOAT), np.uint64(1)
-    beams, joined, group_first = np.uint64(len(ranges)), scratch.joined, scratch.group_first
-    terms = breakpoint_terms(increment, settings)
-    place_points(ranges, directions, scratch.beam_xs, scratch.beam_ys)
-    join_neighbours(ranges, scratch.beam_xs, scratch.beam_ys, lowest, limit, terms, joined)
+    ranges, joined, group_first = scratch.ranges, scratch.joined, scratch.group_first
+    beams, one, limit = np.uint64(count), np.uint64(1), scratch.limit
+    lowest = max(scratch.range_min, SMALLEST_FLOAT)
+    place_points(beams, scratch)
+    join_neighbours(beams, lowest, breakpoint_terms(scratch.increment, settings), scratch)
     points = groups = first = np.uint64(0)  # unsigned: no index is tested for counting from the end
     last_beam: Any = -1
     while first < beams:
         if not lowest <= ranges[first] < limit:
             first += one
             continue
-        if not is_bridged(ranges, directions, increment, settings, last_beam, first):
+        if not is_bridged(last_beam, first, settings, scratch):
             group_first[groups] = points
             groups += one
         end = next_break(joined, first + one)
@@ -70,32 +60,28 @@ def group_points(
 
 
 @kernel
-def place_points(
-    ranges: FloatArray, directions: FloatArray, xs: FloatArray, ys: FloatArray
-) -> None:
+def place_points(beams: Any, scratch: Any) -> None:
     """Write the point of each beam, with a return or not (Barbret (1.2))."""
-    flat = directions.reshape(-1)  # the compiler must know how far the rows are apart
-    for i in range(np.uint64(len(ranges))):
-        xs[i], ys[i] = ranges[i] * flat[i + i], ranges[i] * flat[i + i + np.uint64(1)]
+    xs, ys, ranges, directions = (
+        scratch.beam_xs,
+        scratch.beam_ys,
+        scratch.ranges,
+        scratch.directions,
+    )
+    for i in range(beams):
+        xs[i], ys[i] = ranges[i] * directions[i, 0], ranges[i] * directions[i, 1]
 
 
 @kernel
-def join_neighbours(
-    ranges: FloatArray,
-    xs: FloatArray,
-    ys: FloatArray,
-    lowest: float,
-    limit: float,
-    terms: Any,
-    joined: Any,
-) -> None:
+def join_neighbours(beams: Any, lowest: float, terms: Any, scratch: Any) -> None:
     """Write for each beam whether its point is joined to that of the beam before it.
 
     Without a branch, so that it is done for many beams at once. Behind the last beam is a break.
     """
+    ranges, xs, ys, joined = scratch.ranges, scratch.beam_xs, scratch.beam_ys, scratch.joined
     nearer, farther, previous, offset = terms
-    one = np.uint64(1)
-    for i in range(one, np.uint64(len(ranges))):
+    one, limit = np.uint64(1), scratch.limit
+    for i in range(one, beams):
         before, after = ranges[i - one], ranges[i]
         less = before if before < after else after
         more = before if before > after else after
@@ -103,11 +89,11 @@ def join_neighbours(
         x, y = xs[i] - xs[i - one], ys[i] - ys[i - one]
         seen = (less >= lowest) & (more < limit)
         joined[i] = seen & (x * x + y * y <= reach * reach)
-    joined[len(ranges)] = False
+    joined[beams] = False
 
 
 @kernel
-def next_break(joined: NDArray[np.bool_], beam: Any) -> Any:
+def next_break(joined: Any, beam: Any) -> Any:
     """The first beam from a beam on that is not joined to the one before it."""
     eights = joined.view(np.uint64)
     while joined[beam]:
@@ -132,16 +118,14 @@ def write_points(first: Any, end: Any, points: Any, scratch: Any) -> None:
 
 
 @kernel
-def is_bridged(
-    ranges: FloatArray, directions: FloatArray, increment: float, settings: Any, last: int, new: Any
-) -> Any:
+def is_bridged(last: int, new: Any, settings: Any, scratch: Any) -> Any:
     """Whether a new beam's point is joined to that of the last beam with a return (-1: none)."""
     step = np.int64(new) - last
     if last < 0 or step > settings.dropout_beams + 1:
         return False
-    before, after = ranges[last], ranges[new]
+    directions, before, after = scratch.directions, scratch.ranges[last], scratch.ranges[new]
     x = after * directions[new, 0] - before * directions[last, 0]
     y = after * directions[new, 1] - before * directions[last, 1]
-    nearer, farther, previous, offset = breakpoint_terms(step * increment, settings)
+    nearer, farther, previous, offset = breakpoint_terms(step * scratch.increment, settings)
     reach = nearer * min(before, after) + farther * max(before, after) + previous * before + offset
     return x * x + y * y <= min(reach, settings.merge_gap) ** 2

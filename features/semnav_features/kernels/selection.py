@@ -10,7 +10,7 @@ from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 
 
-@kernel(counts_references=True)
+@kernel
 def finite_values(values: FloatArray) -> FloatArray:
     """A new array of those values that are finite, in the same order."""
     found = np.empty(len(values))

@@ -110,21 +110,15 @@ def prefers_second(first: Any, second: Any, x: float, y: float) -> bool:
 
 
 @kernel
-def flag_pieces(
-    ranges: FloatArray,
-    range_min: float,
-    limit: float,
-    beams_per_turn: int,
-    groups: int,
-    count: int,
-    scratch: Any,
-) -> None:
+def flag_pieces(groups: int, count: int, beams_per_turn: int, scratch: Any) -> None:
     """Set the flags of pieces at the ends of groups: rupture (2.1) or break (2.2).
 
-    In a full circle of `beams_per_turn` beams, which `ranges` holds twice, the last beam comes
+    In a full circle of `beams_per_turn` beams, which the scan holds twice, the last beam comes
     before the first one. `beams_per_turn` is 0 for other scans.
     """
     pieces, beams, group_first = scratch.pieces, scratch.beams, scratch.group_first
+    ranges, beam_count = scratch.ranges, scratch.beam_count
+    range_min, limit = scratch.range_min, scratch.limit
     group = 0
     for k in range(count):
         piece = pieces[k]
@@ -137,7 +131,7 @@ def flag_pieces(
         if piece.first == group_first[group] and before >= 0:
             seen = is_return(ranges[before], range_min, limit)
             piece.flags |= START_BREAK if seen else START_RUPTURE
-        if piece.last == group_first[group + 1] - 1 and after < len(ranges):
+        if piece.last == group_first[group + 1] - 1 and after < beam_count:
             seen = is_return(ranges[after], range_min, limit)
             piece.flags |= END_BREAK if seen else END_RUPTURE
 

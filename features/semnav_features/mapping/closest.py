@@ -11,7 +11,7 @@ from semnav_features.kernels.compiling import kernel
 from semnav_features.mapping.surface import RANGE, X, Y
 
 
-@kernel(counts_references=True)
+@kernel
 def pair(
     reference: FloatArray,
     scan: FloatArray,

@@ -44,7 +44,7 @@ _COARSE_STRIDE = 4
 """While the solution is far, only every fourth beam is paired."""
 
 
-@kernel(counts_references=True)
+@kernel
 def align(
     reference: FloatArray,
     scan: FloatArray,

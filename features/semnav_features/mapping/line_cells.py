@@ -109,7 +109,7 @@ class LineCells:
         )
 
 
-@kernel(counts_references=True)
+@kernel
 def _observe(
     ranges: FloatArray,
     angles: tuple[float, float],

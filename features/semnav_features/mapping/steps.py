@@ -36,7 +36,7 @@ _WEAK_GUESS_WEIGHT = 1e10
 """Weight of the first guess along a weak direction, 1 / m^2: more than any scan's."""
 
 
-@kernel(counts_references=True)
+@kernel
 def linearise(
     reference: FloatArray,
     scan: FloatArray,
@@ -96,7 +96,7 @@ def linearise(
     return math.sqrt(chi / max(inliers, 1))
 
 
-@kernel(counts_references=True)
+@kernel
 def _add(matrix: FloatArray, weight: float, a: float, b: float, c: float) -> None:
     """Add the weighted outer product of (a, b, c) with itself."""
     matrix[0, 0] += weight * a * a
@@ -108,7 +108,7 @@ def _add(matrix: FloatArray, weight: float, a: float, b: float, c: float) -> Non
     matrix[1, 0], matrix[2, 0], matrix[2, 1] = matrix[0, 1], matrix[0, 2], matrix[1, 2]
 
 
-@kernel(counts_references=True)
+@kernel
 def find_weak(matrix: FloatArray, share: float, report: FloatArray) -> None:
     """Report the direction along which the matrix says too little about the place, if any.
 
@@ -127,7 +127,7 @@ def find_weak(matrix: FloatArray, share: float, report: FloatArray) -> None:
     report[WEAK_Y] = math.sin(angle) if weak else 0.0
 
 
-@kernel(counts_references=True)
+@kernel
 def add_guess(
     matrix: FloatArray,
     gradient: FloatArray,
@@ -149,7 +149,7 @@ def add_guess(
         gradient[k] += weight * (guess[k] - pose[k])
 
 
-@kernel(counts_references=True)
+@kernel
 def solve(m: FloatArray, g: FloatArray, x: FloatArray) -> None:
     """Solve the symmetric system m x = g of three unknowns by cofactors; zero if singular."""
     a = m[1, 1] * m[2, 2] - m[1, 2] * m[1, 2]
@@ -165,7 +165,7 @@ def solve(m: FloatArray, g: FloatArray, x: FloatArray) -> None:
     x[2] = inverse * (c * g[0] + e * g[1] + f * g[2])
 
 
-@kernel(counts_references=True)
+@kernel
 def procrustes(
     reference: FloatArray,
     scan: FloatArray,
@@ -198,7 +198,7 @@ def procrustes(
     step[2] = wrapped(heading - pose[2])
 
 
-@kernel(counts_references=True)
+@kernel
 def wrapped(angle: float) -> Any:
     """The same angle in [-pi, pi)."""
     return angle - 2.0 * math.pi * math.floor(angle / (2.0 * math.pi) + 0.5)

@@ -35,7 +35,7 @@ _STACK_SIZE = 64
 """Pieces of one run that can wait to be split; a run with more is not split further."""
 
 
-@kernel(counts_references=True)
+@kernel
 def range_noise(ranges: FloatArray, limits: tuple[float, float]) -> Any:
     """The standard deviation of the ranges' noise, metres, estimated from the scan itself.
 
@@ -54,7 +54,7 @@ def range_noise(ranges: FloatArray, limits: tuple[float, float]) -> Any:
     return min(max(median / (_NORMAL_MEDIAN * math.sqrt(6.0)), _MIN_NOISE), _MAX_NOISE)
 
 
-@kernel(counts_references=True)
+@kernel
 def sense_surface(
     ranges: FloatArray,
     directions: FloatArray,
@@ -97,7 +97,7 @@ def sense_surface(
             first = k
 
 
-@kernel(counts_references=True)
+@kernel
 def _parted(ranges: FloatArray, i: int, j: int, increment: float, sigma: float) -> Any:
     """Whether the surface jumps between two beams (Borges and Aldon 2004, eq. (5) of Weerakoon)."""
     angle_between = increment * (j - i)
@@ -108,7 +108,7 @@ def _parted(ranges: FloatArray, i: int, j: int, increment: float, sigma: float) 
     return j - i > 3 or apart > limit * limit
 
 
-@kernel(counts_references=True)
+@kernel
 def _fit_pieces(
     out: FloatArray,
     index: np.ndarray,
@@ -135,7 +135,7 @@ def _fit_pieces(
             _fit_piece(out, index, a, b, ranges, directions, sigma, window)
 
 
-@kernel(counts_references=True)
+@kernel
 def _bend(out: FloatArray, index: np.ndarray, first: int, stop: int, tolerance: float) -> int:
     """Where a run is farthest from its chord, if farther than `tolerance`; else 0."""
     a, b = index[first], index[stop - 1]
@@ -149,7 +149,7 @@ def _bend(out: FloatArray, index: np.ndarray, first: int, stop: int, tolerance: 
     return place
 
 
-@kernel(counts_references=True)
+@kernel
 def _fit_piece(
     out: FloatArray,
     index: np.ndarray,
@@ -196,7 +196,7 @@ def _fit_piece(
         out[RANGE, i] = ranges[i]
 
 
-@kernel(counts_references=True)
+@kernel
 def _spacing(out: FloatArray, index: np.ndarray, k: int, first: int, stop: int) -> float:
     """Distance to the farther of the two neighbours in the piece, metres."""
     i = index[k]

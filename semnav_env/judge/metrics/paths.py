@@ -103,7 +103,7 @@ def cls(path: FloatArray, route: FloatArray, threshold: float = PUBLISHED_GOAL_R
     return coverage * score
 
 
-@kernel(counts_references=True)
+@kernel
 def _warp(distances: FloatArray) -> float:
     """The cost of the cheapest monotone way through a matrix from its first cell to its last."""
     rows, columns = distances.shape

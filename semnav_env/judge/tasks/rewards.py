@@ -68,7 +68,7 @@ class RewardWeights:
         progress: per metre by which the shortest way to the active clause's goal gets shorter.
         clause: for each clause carried out.
         success: once, for the whole command.
-        failure: once, for a wrong door, a wrong turn or stopping short.
+        failure: once, for a wrong door, a wrong turn, an incomplete clause or stopping short.
         contact: per step in contact.
         time: per step.
 

@@ -103,7 +103,7 @@ def is_in_junction(corridor: Corridor) -> bool:
     )
 
 
-@kernel(counts_references=True)
+@kernel
 def _find_start(
     draws: FloatArray,
     free: NDArray[np.bool_],

@@ -32,6 +32,7 @@ NAMED_ORDINALS = ("nearest", "any", "other")
 DOOR_SIDES = ("left", "right", "ahead", "behind", "opposite")
 
 _CONDITION = re.compile(r"if ([^:]+): ?(.*?)(?: else: ?(.*))? end")
+_DISTANCE = r"([\d.]+) (m|steps?)"
 _BEFORE_PLACE = re.compile(r"(?:until|past|at|to|face|after|before)$")
 
 
@@ -105,7 +106,7 @@ def _step(text: str) -> Step:
     match text.split(" ", 1):
         case [verb] if verb in {*_verbs(None), "cross"}:
             return (verb,)
-        case ["hallway", rest] if found := re.fullmatch(r"for ([\d.]+) (m|steps?)", rest):
+        case ["hallway", rest] if found := re.fullmatch(f"for {_DISTANCE}", rest):
             return ("hallway", "for", float(found[1]), found[2][0])
         case ["hallway", rest] if rest.startswith(("until ", "past ")):
             relation, place = rest.split(" ", 1)
@@ -159,7 +160,7 @@ def _turn(rest: str) -> Step:
 
 
 def read_place(text: str) -> Step:
-    """A place of the notation: a door, a named room, or a kind of place with its ordinal.
+    """A place of the notation: a door, a named room, a kind of place with its ordinal, a distance.
 
     Raises:
         ValueError: it is not in the notation.
@@ -167,6 +168,8 @@ def read_place(text: str) -> Step:
     text = text.strip()
     if room := re.fullmatch(r"room\((.+)\)", text):
         return ("room", room[1].strip().casefold())
+    if distance := re.fullmatch(_DISTANCE, text):
+        return ("distance", float(distance[1]), distance[2][0])
     if door := re.fullmatch(r"door\((.+)\)", text):
         return _door(door[1])
     place = re.fullmatch(

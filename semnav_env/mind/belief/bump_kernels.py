@@ -37,7 +37,7 @@ _LINE_OFFSET, _LINE_SLOPE = LIMITS.line_offset, LIMITS.line_slope
 _LOOK_DEPTH, _SEEN_DEPTH, _SEEN_BEAMS = LIMITS.look_depth, LIMITS.seen_depth, LIMITS.seen_beams
 
 
-@kernel(counts_references=True)
+@kernel
 def note_contacts(
     bumps: Bumps,
     contacts: FloatArray,
@@ -83,7 +83,7 @@ def forget_passed(bumps: Bumps, before: Pose, after: Pose) -> None:
             _drop(bumps, k, 1)
 
 
-@kernel(counts_references=True)
+@kernel
 def _learn(bumps: Bumps, fresh: FloatArray) -> None:
     """Unite all pieces anew, and forget the oldest if there are too many."""
     known, used = bumps
@@ -97,7 +97,7 @@ def _learn(bumps: Bumps, fresh: FloatArray) -> None:
         _drop(bumps, 0, count - MOST_PIECES)
 
 
-@kernel(counts_references=True)
+@kernel
 def _drop(bumps: Bumps, first: int, count: int) -> None:
     """Forget some pieces that follow each other."""
     known, used = bumps

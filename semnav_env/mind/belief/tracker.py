@@ -38,7 +38,7 @@ from semnav_env.mind.grounding.ways import KnownWays, Way
 from semnav_env.rules import Rules, with_doors_of
 from semnav_features import ExtractorSettings
 from semnav_features.frames import MOST_CONTACTS, Contact, FloatArray, Pose, Twist
-from semnav_features.kernels.scratch import Features, allocate_features, allocate_scratch
+from semnav_features.kernels.scratch import FEATURES, Features, features_of, scratch_array
 from semnav_features.lidar_spec import LidarSpec, lidar_spec
 from semnav_features.memory import SceneMemory
 from semnav_features.one_thread import ThreadDoor, for_one_thread
@@ -99,14 +99,14 @@ class BeliefTracker:
         self.lidar, self.mount = lidar_spec(lidar), finite_triple("mount", mount)
         self.corrects_drift, self.known_scene = corrects_drift, known_scene
         self.ranges = np.zeros(self.lidar.beams)
-        self._features, self._observes_features = allocate_features(), observes_features
+        self._features, self._observes_features = np.zeros(1, FEATURES), observes_features
         self.bumps = BumpMap(self.lidar, mount)
         self._belief: Belief | None = None
         self.asked: set[BeliefTracker] = set()
         self.rules, extractor = with_doors_of(rules, extractor)
         self.memory = SceneMemory(self.rules.door)
         self._record = extractor.as_record()
-        self._workbench = workbench_with(allocate_scratch(self.lidar.beams))
+        self._workbench = workbench_with(scratch_array(self.lidar.beams))
         self._estimate = np.zeros(1, ESTIMATE)
         self._progress = np.zeros(1, CLAUSE_PROGRESS)
         self._told = ToldWays()
@@ -135,7 +135,7 @@ class BeliefTracker:
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         self._last_source, self.asked = nothing, set()
-        self._workbench = workbench_with(allocate_scratch(self.lidar.beams))
+        self._workbench = workbench_with(scratch_array(self.lidar.beams))
         self.senses = self._join()
 
     def read_ranges_in(self, ranges: FloatArray) -> None:
@@ -281,7 +281,7 @@ class BeliefTracker:
         """Of the last scan, lidar frame."""
         if not self._observes_features:
             extract_features(self.senses, True)
-        return self._features
+        return features_of(self._features)
 
     def hits(self) -> FloatArray:
         """Where the last beams ended, lidar frame, shape (n, 2); NaN without a return."""

@@ -44,7 +44,7 @@ class Workbench(structref.StructRefProxy):
 structref.define_proxy(Workbench, WorkbenchType, list(Workbench.__annotations__))
 
 
-@kernel(counts_references=True)
+@kernel
 def workbench_with(scratch: Any) -> Workbench:
     """A workbench with this `Scratch`."""
     return Workbench(scratch)
@@ -90,7 +90,7 @@ class Senses(structref.StructRefProxy):
 structref.define_proxy(Senses, SensesType, list(Senses.__annotations__))
 
 
-@kernel(counts_references=True)
+@kernel
 def join_senses(
     limits: np.ndarray,
     beams: FloatArray,
@@ -122,7 +122,7 @@ def join_senses(
     )
 
 
-@kernel(borrows=True)
+@kernel
 def understand(senses: Senses) -> int:
     """Take in the scan and the motion that stand in the senses; returns events.
 
@@ -150,7 +150,7 @@ def understand(senses: Senses) -> int:
     return events
 
 
-@kernel(borrows=True)
+@kernel
 def _feel(senses: Senses, pose: Pose) -> bool:
     """Note what the body touches unseen; returns whether something new is known."""
     estimate = senses.estimate[0]
@@ -160,7 +160,7 @@ def _feel(senses: Senses, pose: Pose) -> bool:
     return bool(note_contacts(senses.bumps, felt, senses.ranges, senses.limits, senses.mount, pose))
 
 
-@kernel(borrows=True)
+@kernel
 def note_look(senses: Senses) -> None:
     """Note that the clause has been grounded."""
     estimate = senses.estimate[0]
@@ -170,7 +170,7 @@ def note_look(senses: Senses) -> None:
     estimate.look_walls, estimate.look_doors = how_many_count(*senses.remembered)
 
 
-@kernel(borrows=True)
+@kernel
 def perceive(senses: Senses, odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
     """Extract the features of the last scan and remember them; returns the believed pose.
 
@@ -183,7 +183,7 @@ def perceive(senses: Senses, odometry: Pose, before: tuple[Pose, Pose]) -> Pose:
         before: odometry at the last scan, and the pose that was believed then.
     """
     corrects_drift = senses.estimate[0].corrects_drift
-    features, limits = senses.features, senses.limits[0]
+    features, limits = senses.features[0], senses.limits[0]
     extract_features(senses, senses.estimate[0].observes_features)
     robot = _advanced(odometry, before) if corrects_drift else odometry
     lidar = _mounted(robot, senses.mount)
@@ -208,25 +208,17 @@ def _pose(field: FloatArray) -> Pose:
     return field[0], field[1], field[2]
 
 
-@kernel(borrows=True)
+@kernel
 def extract_features(senses: Senses, all_of_them: bool) -> None:
     """Extract the features of the last scan; corners and corridors only if all are wanted."""
-    features, limits = senses.features, senses.limits[0]
-    room = len(features.corners) if all_of_them else 0
     extract_arrays(
         senses.ranges,
         senses.beams,
-        limits.angle_increment,
-        limits.range_min,
-        limits.range_max,
-        senses.record,
-        senses.workbench.scratch,
-        features.walls,
-        features.doors,
-        features.corners[:room],
-        features.corridors,
-        features.arcs,
-        features.counts,
+        senses.limits[0],
+        senses.record[0],
+        senses.workbench.scratch[0],
+        senses.features[0],
+        all_of_them,
     )
 
 

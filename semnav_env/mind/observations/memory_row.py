@@ -36,7 +36,7 @@ _HALLWAY, _START = MEMORY_STARTS["hallway"], MEMORY_STARTS["start"]
 _HALF_WIDTH = _HALLWAY + HALLWAY.columns.index("half_width")
 
 
-@kernel(counts_references=True)
+@kernel
 def write_command_row(row: NDArray[np.float32], senses: Senses) -> None:
     """Write all entries, the scan, and what is remembered and told.
 
@@ -60,7 +60,7 @@ def write_command_row(row: NDArray[np.float32], senses: Senses) -> None:
     memory[_START + 2], memory[_START + 3] = c, -s
 
 
-@kernel(counts_references=True)
+@kernel
 def _write_walls(memory: NDArray[np.float32], walls: FloatArray, pose: Pose) -> None:
     """Write the remembered walls, the nearest first."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
@@ -82,7 +82,7 @@ def _distance(wall: FloatArray, x: float, y: float) -> float:
     return math.hypot(wall[0] + along * dx - x, wall[1] + along * dy - y)
 
 
-@kernel(counts_references=True)
+@kernel
 def _write_corridor(
     memory: NDArray[np.float32], walls: FloatArray, doors: FloatArray, pose: Pose
 ) -> None:

@@ -45,7 +45,7 @@ _KIND, _PLACE = STARTS["goal"], column(GOAL, "x")
 _JAMBS, _HAS_DOOR = column(GOAL, "door_start_x"), column(GOAL, "has_door")
 
 
-@kernel(borrows=True)
+@kernel
 def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     """Write all entries; and the scan, if there is room for it.
 
@@ -58,7 +58,7 @@ def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     believed = senses.estimate[0]
     pose = (believed.pose[0], believed.pose[1], believed.pose[2])
     if believed.observes_features:
-        _write_features(row, senses.features, senses.mount)
+        _write_features(row, senses.features[0], senses.mount)
         _, doors, state = senses.remembered
         _write_remembered(row, doors, state[0], pose)
         _write_bumps(row, senses.bumps, pose)
@@ -137,7 +137,7 @@ def _write_features(row: NDArray[np.float32], features: Features, mount: Pose) -
         row[_CORRIDORS_MASK + i] = 1.0
 
 
-@kernel(counts_references=True)
+@kernel
 def _write_remembered(row: NDArray[np.float32], doors: np.ndarray, state: Any, pose: Pose) -> None:
     """Write the remembered doors that count, odometry frame, in the robot frame, nearest first."""
     row[_REMEMBERED:_BUMPS] = 0.0

@@ -62,7 +62,7 @@ def _places(floor_plan: FloorPlan) -> list[Point]:
     return [(x, south + share * (north - south)) for x in xs for share in ys]
 
 
-@kernel(counts_references=True)
+@kernel
 def look_ahead(
     field: FloatArray, west: float, south: float, spacing: float, x: float, y: float
 ) -> tuple[float, float, float]:

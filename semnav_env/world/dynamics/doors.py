@@ -86,7 +86,7 @@ class SwingingDoors:
         self.segments[i] = (*leaf.hinge, *leaf.tip(angle))
 
 
-@kernel(counts_references=True)
+@kernel
 def _has_way(
     hinge: tuple[float, float],
     tip: tuple[float, float],

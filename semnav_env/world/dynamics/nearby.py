@@ -21,7 +21,7 @@ MAX_WALL_PIECES = 128
 nobody step into the others."""
 
 
-@kernel(counts_references=True)
+@kernel
 def nearest_on_segment(
     x: float, y: float, x1: float, y1: float, x2: float, y2: float
 ) -> tuple[float, float]:
@@ -33,7 +33,7 @@ def nearest_on_segment(
     return x1 + along * dx, y1 + along * dy
 
 
-@kernel(counts_references=True)
+@kernel
 def nearest_on_body(x: float, y: float, body: FloatArray) -> tuple[float, float]:
     """The point of a robot's footprint that is nearest to (x, y), which may be (x, y) itself.
 
@@ -49,7 +49,7 @@ def nearest_on_body(x: float, y: float, body: FloatArray) -> tuple[float, float]
     return body[BODY_X] + c * ahead - s * left, body[BODY_Y] + s * ahead + c * left
 
 
-@kernel(counts_references=True)
+@kernel
 def walls_near(x: float, y: float, walls: Any, leaves: FloatArray, out: FloatArray) -> int:
     """Write the nearest points of the walls and leaves within `WALL_RANGE` of (x, y).
 
@@ -74,7 +74,7 @@ def walls_near(x: float, y: float, walls: Any, leaves: FloatArray, out: FloatArr
     return count
 
 
-@kernel(counts_references=True)
+@kernel
 def _keep(
     x: float, y: float, x1: float, y1: float, x2: float, y2: float, out: FloatArray, count: int
 ) -> int:
@@ -85,7 +85,7 @@ def _keep(
     return count + 1
 
 
-@kernel(counts_references=True)
+@kernel
 def nearest_wall(x: float, y: float, walls: Any, leaves: FloatArray) -> tuple[float, float]:
     """The nearest point of all walls and leaves within `WALL_RANGE`; far away if there is none."""
     grid, starts, ends = walls

@@ -30,7 +30,7 @@ BISECTIONS = 16
 it to a 65,000th of the interval."""
 
 
-@kernel(counts_references=True)
+@kernel
 def orca(
     places: FloatArray,
     velocities: FloatArray,
@@ -75,7 +75,7 @@ def orca(
         _least_violating(planes[:count], hard, wishes[i], limit, out[i])
 
 
-@kernel(counts_references=True)
+@kernel
 def _static_half_plane(
     dx: float, dy: float, radius: float, horizon: float, plane: FloatArray
 ) -> None:
@@ -85,7 +85,7 @@ def _static_half_plane(
     plane[2] = -max(distance - radius, 0.0) / horizon
 
 
-@kernel(counts_references=True)
+@kernel
 def _reciprocal_half_plane(
     between: FloatArray,
     relative: FloatArray,
@@ -122,7 +122,7 @@ def _reciprocal_half_plane(
     plane[2] = nx * velocity[0] + ny * velocity[1] + 0.5 * gap
 
 
-@kernel(counts_references=True)
+@kernel
 def _least_violating(
     planes: FloatArray, hard: int, wish: FloatArray, limit: float, out: FloatArray
 ) -> None:
@@ -140,7 +140,7 @@ def _least_violating(
         out[0] = out[1] = 0.0
 
 
-@kernel(counts_references=True)
+@kernel
 def nearest_allowed(
     planes: FloatArray, hard: int, slack: float, wish: FloatArray, limit: float, out: FloatArray
 ) -> bool:

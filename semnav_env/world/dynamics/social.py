@@ -88,7 +88,7 @@ def for_json(outcome: dict[str, Any]) -> dict[str, Any]:
     return {name: value if math.isfinite(value) else None for name, value in outcome.items()}
 
 
-@kernel(counts_references=True)
+@kernel
 def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
     """Distance between the robot's footprint and each person's body, metres, shape (n,).
 
@@ -106,7 +106,7 @@ def gaps(body: FloatArray, discs: FloatArray) -> FloatArray:
     return found
 
 
-@kernel(counts_references=True)
+@kernel
 def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArray) -> FloatArray:
     """Time until each person's body meets the footprint if both keep their velocity, seconds.
 
@@ -137,7 +137,7 @@ def times_to_collision(body: FloatArray, discs: FloatArray, velocities: FloatArr
     return found
 
 
-@kernel(counts_references=True)
+@kernel
 def _into_box(x: float, y: float, u: float, v: float, half_x: float, half_y: float) -> float:
     """Time at which a point moving with (u, v) enters |x| <= half_x, |y| <= half_y, seconds."""
     first, last = 0.0, np.inf
@@ -151,7 +151,7 @@ def _into_box(x: float, y: float, u: float, v: float, half_x: float, half_y: flo
     return first if first <= last else np.inf
 
 
-@kernel(counts_references=True)
+@kernel
 def _into_disc(x: float, y: float, u: float, v: float, radius: float) -> float:
     """Time at which a point moving with (u, v) enters a disc around the origin, seconds."""
     outside = x * x + y * y - radius * radius

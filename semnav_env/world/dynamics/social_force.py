@@ -44,7 +44,7 @@ UNSEEN_WEIGHT = 0.5
 """Weight c of what lies outside the angle of sight, equation (7)."""
 
 
-@kernel(counts_references=True)
+@kernel
 def social_force(
     places: FloatArray,
     velocities: FloatArray,
@@ -102,7 +102,7 @@ def social_force(
         out[i, 0], out[i, 1] = share * vx, share * vy
 
 
-@kernel(counts_references=True)
+@kernel
 def _repulsion(rx: float, ry: float, vx: float, vy: float, wish: FloatArray) -> tuple[float, float]:
     """Force of somebody at -r, moving with v, on somebody with that wish: (3), (4), (7), (8).
 
@@ -126,7 +126,7 @@ def _repulsion(rx: float, ry: float, vx: float, vy: float, wish: FloatArray) -> 
     return weight * fx, weight * fy
 
 
-@kernel(counts_references=True)
+@kernel
 def _wall_repulsion(x: float, y: float, points: FloatArray, count: int) -> tuple[float, float]:
     """Force of the nearest wall and of the nearest one on the other side, (5)."""
     fx = fy = first_x = first_y = 0.0

@@ -16,7 +16,7 @@ OVERLAP_TOLERANCE = 1e-6
 """Depth by which bodies may overlap, metres: rounding errors."""
 
 
-@kernel(counts_references=True)
+@kernel
 def walk(
     places: FloatArray,
     velocities: FloatArray,
@@ -69,7 +69,7 @@ def walk(
         velocities[i, 0], velocities[i, 1] = step_x / seconds, step_y / seconds
 
 
-@kernel(counts_references=True)
+@kernel
 def _off_the_robot(
     dx: float, dy: float, vx: float, vy: float, straight: bool
 ) -> tuple[float, float]:
@@ -81,7 +81,7 @@ def _off_the_robot(
     return vx - min(away, 0.0) * dx, vy - min(away, 0.0) * dy
 
 
-@kernel(counts_references=True)
+@kernel
 def _nears_robot(
     x: float, y: float, step_x: float, step_y: float, before: float, body: FloatArray
 ) -> bool:
@@ -90,7 +90,7 @@ def _nears_robot(
     return math.hypot(x + step_x - near_x, y + step_y - near_y) < before - 1e-9
 
 
-@kernel(counts_references=True)
+@kernel
 def _worst(
     x: float,
     y: float,

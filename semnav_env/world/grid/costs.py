@@ -35,7 +35,7 @@ def costs_from(cell: tuple[int, int], weight: FloatArray, spacing: float) -> Flo
     return least_costs(np.array([cell]), np.zeros(1), weight, spacing, diagonal, True)
 
 
-@kernel(counts_references=True)
+@kernel
 def least_costs(
     sources: NDArray[np.int64],
     first: FloatArray,
@@ -139,7 +139,7 @@ def lowest_around(field: FloatArray, row: int, column: int) -> tuple[int, int]:
     return best_row, best_column
 
 
-@kernel(counts_references=True)
+@kernel
 def descent(field: FloatArray, row: int, column: int, max_cells: int) -> NDArray[np.int64]:
     """The cells of steepest descent from a cell to a minimum, (row, column), shape (k, 2)."""
     cells = [(row, column)]

@@ -22,7 +22,7 @@ NO_MARKED_CELL = 1e12
 """Squared distance where there is no marked cell, in cells: finite, so that differences are too."""
 
 
-@kernel(counts_references=True)
+@kernel
 def distance_to_marked(marked: NDArray[np.bool_], cell: float, distance: NDArray[Any]) -> None:
     """Write the distance from each cell's middle to that of the nearest marked cell, metres.
 
@@ -45,7 +45,7 @@ def distance_to_marked(marked: NDArray[np.bool_], cell: float, distance: NDArray
             )
 
 
-@kernel(counts_references=True)
+@kernel
 def _along_columns(marked: NDArray[np.bool_], squared: FloatArray) -> None:
     """Squared distance to the nearest marked cell of the same column: two sweeps."""
     rows, columns = marked.shape

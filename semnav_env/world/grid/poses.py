@@ -131,7 +131,7 @@ def _footprints(
     return np.array(starts), table[:, 0].copy(), table[:, 1].copy(), table[:, 2].copy()
 
 
-@kernel(counts_references=True)
+@kernel
 def _flood(
     blocked: NDArray[np.bool_],
     starts: NDArray[np.int64],
@@ -195,7 +195,7 @@ def _flood(
     return reached, states
 
 
-@kernel(counts_references=True)
+@kernel
 def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
     """How many successive cells are free from each cell to the right, itself included."""
     rows, columns = blocked.shape
@@ -208,7 +208,7 @@ def _free_ahead(blocked: NDArray[np.bool_]) -> NDArray[np.int16]:
     return ahead
 
 
-@kernel(counts_references=True)
+@kernel
 def _wide(blocked: NDArray[np.bool_], far: int) -> NDArray[np.bool_]:
     """Whether nothing solid is in the square of `far` cells to all sides of each cell.
 

@@ -188,7 +188,7 @@ def _cells_near(segment: FloatArray, g: Any, reach: float) -> tuple[int, int, in
     )
 
 
-@kernel(counts_references=True)
+@kernel
 def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> NDArray[np.int64]:
     g = grid[0]
     reach = _reach(g, range_max)
@@ -206,7 +206,7 @@ def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> ND
     return starts
 
 
-@kernel(counts_references=True)
+@kernel
 def _listed_ends(
     segments: FloatArray, grid: np.ndarray, range_max: float, starts: NDArray[np.int64]
 ) -> FloatArray:

@@ -54,7 +54,7 @@ _NEARER = 1.0 + 1e-9
 """Factor by which rounding may make the reciprocal of a squared range too small, at most."""
 
 
-@kernel(counts_references=True)
+@kernel
 def cast(
     x: float,
     y: float,

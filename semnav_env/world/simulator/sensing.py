@@ -83,7 +83,7 @@ class SimulatorArrays(structref.StructRefProxy):
 structref.define_proxy(SimulatorArrays, SimulatorArraysType, list(SimulatorArrays.__annotations__))
 
 
-@kernel(counts_references=True)
+@kernel
 def join_simulator(
     drive: np.ndarray,
     solids: Any,
@@ -97,7 +97,7 @@ def join_simulator(
     return SimulatorArrays(drive, solids, odometry, sensing, lidar, mount, ranges)
 
 
-@kernel(borrows=True)
+@kernel
 def sense(arrays: SimulatorArrays) -> int:
     """Drive a robot for one control period and sense; returns events, 0 or `TOUCHED`."""
     drive(arrays.drive, arrays.solids)
@@ -107,7 +107,7 @@ def sense(arrays: SimulatorArrays) -> int:
     return look(arrays)
 
 
-@kernel(borrows=True)
+@kernel
 def look(arrays: SimulatorArrays) -> int:
     """Sense where the robot is now; returns events, 0 or `TOUCHED`."""
     driven, sensing = arrays.drive[0], arrays.sensing[0]
@@ -118,7 +118,7 @@ def look(arrays: SimulatorArrays) -> int:
     return TOUCHED if driven.touches > 0 else 0
 
 
-@kernel(borrows=True)
+@kernel
 def _scan(arrays: SimulatorArrays, x: float, y: float, heading: float) -> None:
     """Measure the ranges from a robot's true pose, world frame."""
     grid, starts, ends, beams, sensor, discs, leaves = arrays.lidar
