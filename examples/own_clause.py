@@ -1,4 +1,4 @@
-"""A clause of one's own, "step aside by 1 metre", and an interpreter that understands the words for it.
+"""A clause of one's own, "step aside by 1 metre", and an interpreter that knows the words for it.
 
 One sees what the interpreter takes two texts for, the judge's verdict, and what the robot took for
 its goal.
