@@ -9,6 +9,7 @@ STUDIES = CommandTable(
     "Measurements of the package; `python -m studies.figures --help` lists the pictures.",
     {
         "buildings": ("studies.buildings.command", "doors in scans of real floors"),
+        "chart_reader": ("studies.chart_reader.command", "a chart reader beside the grammar"),
         "clouds": ("studies.clouds.command", "door jambs in point clouds, after Mes 2021"),
         "drift": ("studies.drift.command", "success against drift of odometry"),
         "exits": ("studies.exits.command", "how often robots get out through a named door"),

@@ -1,0 +1,1 @@
+"""Trains and measures the chart reader, each author left out in turn."""
