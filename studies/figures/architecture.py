@@ -94,7 +94,7 @@ import `semnav_env`, which may import `semnav_features`, never the other way rou
 import cycles. `semnav_env/mind/belief` imports nothing of the simulator or the
 judge.
 
-[Where do I change what?](extending.md#where-do-i-change-what) names the file for the most frequent
+[Where do I change what?](where.md) names the file for the most frequent
 changes: a door, a reward term, a clause, a sensor, a format, an agent, an entry of the observation.
 
 ## Three walks through the code
