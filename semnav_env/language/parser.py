@@ -94,12 +94,13 @@ def readings(
 
     What goes without saying (`defaults`) is not decided here.
     """
+    spoken = None if language is None else language_of(language)
     if isinstance(text, str) and is_stop(text):
         return STOP_AT_ONCE
     from semnav_env.language.spoken_text import readings_of_text  # here, as it is large
 
     try:
-        found = readings_of_text(text, None if language is None else language_of(language), rooms)
+        found = readings_of_text(text, spoken, rooms)
         check_rooms(found[0], text, rooms)
     except CommandError as error:
         if isinstance(text, str) and begins_or_ends_with_stop(text):

@@ -151,7 +151,7 @@ def test_every_form_of_every_clause_says_what_it_covers(kind: type[Clause]) -> N
             assert (
                 each.words in language.phrases or each.words.partition(":")[0] in language.phrases
             )
-        assert {word for word in each.symbols.split(" ") if word[0] != "{"} <= set(SYMBOLS)
+        assert {word for word in each.symbols.split() if word[0] != "{"} <= set(SYMBOLS)
 
 
 @pytest.mark.parametrize("kind", CLAUSE_KINDS.values())

@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 from semnav_env.language import (
+    BackUp,
     Command,
     CommandError,
+    Distance,
     SearchHouse,
     paraphrases,
     parse,
@@ -58,6 +60,7 @@ def test_every_wording_of_a_language_is_understood_somewhere(language: str) -> N
     left = {(key, wording) for key in usable for wording in spoken.wordings[key]}
     commands = [sample_command(rng, max_clauses=2, max_ordinal=3) for _ in range(1500)]
     commands.append(Command((SearchHouse(),)))  # belongs to a house, so it is not sampled
+    commands.append(Command((BackUp(Distance(2.0)),)))  # trained agents do not know it
     for key, wording in sorted(left):
         other = replace(spoken, phrases={**spoken.phrases, key: wording})
         texts = ((command.say(other), command) for command in commands)

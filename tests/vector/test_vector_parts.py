@@ -132,8 +132,8 @@ def test_after_an_autoreset_that_failed_no_finished_episode_goes_on():
 
 
 def test_a_mind_that_was_replaced_is_not_kept() -> None:
-    """Another floor plan needs another one."""
-    envs = SemNavVectorEnv(2, threads=1)
+    """One that knows the floor plan is replaced with it."""
+    envs = SemNavVectorEnv(2, threads=1, observation="truth")
     envs.reset(seed=0)
     before = [ref(env.tracker) for env in envs.envs]
     envs.reset(seed=1, options={"floor_plan": "office_cross"})

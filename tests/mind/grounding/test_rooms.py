@@ -95,7 +95,7 @@ def test_an_unknown_room_is_answered_with_known_ones() -> None:
 
 
 def test_a_misspelt_room_is_answered_with_the_nearest_one() -> None:
-    with pytest.raises(CommandError, match="corrected: library") as caught:
+    with pytest.raises(CommandError, match='Did you mean "library"') as caught:
         parse("go to the libary", rooms=("library", "kitchen"))
     assert caught.value.suggestion == "library"
 
