@@ -39,7 +39,10 @@ def _with_verb(
 ) -> Sequence[Item]:
     for at in range(clause[0].start, clause[-1].stop):
         if found := lexicon.find(words, at, "backwards"):
-            verb = Item(ItemKind.VERB, at, found[1], "reverse")
-            kept = [item for item in clause if item.stop <= at or item.start >= found[1]]
+            said = [item for item in clause if item.start < found[1] and item.stop > at]
+            start = min([at, *(item.start for item in said)])
+            stop = max([found[1], *(item.stop for item in said)])
+            verb = Item(ItemKind.VERB, start, stop, "reverse")
+            kept = [item for item in clause if item not in said]
             return sorted([*kept, verb], key=lambda item: item.start)
     return clause

@@ -68,6 +68,7 @@ def test_nobody_backs_up_into_a_wall() -> None:
         ("go two metres backwards", "back up for 2 metres"),
         ("drive 3 steps in reverse, then turn left", "back up for 3 steps and turn left"),
         ("fahr zwei Meter rückwärts", "back up for 2 metres"),
+        ("zwei Meter rückwärts fahren", "back up for 2 metres"),
         ("setz einen Meter zurück", "back up for 1 metre"),
         ("go back two metres", "turn around and go down the hallway for 2 metres"),
         ("reverse", "turn around"),

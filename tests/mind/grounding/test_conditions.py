@@ -157,7 +157,7 @@ def _rooms(command: Command) -> list[str]:
         ("if there is a corner, stop, otherwise wait, otherwise stop", "otherwise than what"),
         ("in any case stop", "there is no condition"),
         ("if the second door is closed, take the next one", "closed doors look like walls"),
-        ("leave the room, no, the second", "the second what"),
+        ("turn around, no, the second", "the second what"),
     ],
 )
 def test_clauses_without_what_they_refer_to_are_refused(text: str, error: str) -> None:
