@@ -16,8 +16,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numba import types
-from numba.experimental import structref
 from numpy.typing import ArrayLike
 
 from semnav_env.judge.judge_record import JudgeRecord, judge_motion
@@ -26,6 +24,7 @@ from semnav_env.mind.belief.understand import Senses, understand
 from semnav_env.world.simulator.sensing import TOUCHED, SimulatorArrays, sense
 from semnav_features.frames import Twist
 from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.structures import Structure, numba_type
 
 if TYPE_CHECKING:
     from semnav_env.judge import Judge, Period
@@ -36,12 +35,7 @@ if TYPE_CHECKING:
     _Parts = tuple[Simulator, BeliefTracker, Judge, Payload | None]
 
 
-@structref.register
-class RobotArraysType(types.StructRef):
-    """How compiled code sees `RobotArrays`."""
-
-
-class RobotArrays(structref.StructRefProxy):
+class RobotArrays(Structure):
     """The arrays of one simulated robot, its mind and its judge.
 
     Attributes:
@@ -55,13 +49,7 @@ class RobotArrays(structref.StructRefProxy):
     judge: JudgeRecord
 
 
-structref.define_proxy(RobotArrays, RobotArraysType, list(RobotArrays.__annotations__))
-
-
-@kernel
-def join_robot(simulator: SimulatorArrays, senses: Senses, judge: JudgeRecord) -> RobotArrays:
-    """The structures as one; they are shared, not copied."""
-    return RobotArrays(simulator, senses, judge)
+RobotArraysType = numba_type(RobotArrays)
 
 
 @kernel
@@ -150,7 +138,9 @@ class RobotLoop:
         self._simulator, self._tracker, self._judge = simulator, tracker, judge
         self._seconds = 1.0 / simulator.setup.control_hz
         tracker.read_ranges_in(simulator.last_ranges)
-        self.arrays = join_robot(simulator.arrays, tracker.senses, judge.record)
+        self.arrays = RobotArrays.of(
+            simulator=simulator.arrays, senses=tracker.senses, judge=judge.record
+        )
 
     def look(self) -> None:
         """Understand what is sensed at the start of an episode."""

@@ -16,7 +16,6 @@ from semnav_env.judge.judge_record import (
     NO_DISTANCES,
     TOO_STILL,
     JudgeRecord,
-    join_record,
     judge_motion,
     set_arms,
     set_distances,
@@ -94,9 +93,13 @@ class Judge:
 
     def _join(self) -> JudgeRecord:
         self._numbers, self.row = self._state.view(np.uint8).data, self._state["period"]
-        doors = self.mission.floor_plan.derived(_door_ends)
-        progress = self.follower.progress
-        return join_record(self._state, doors, self._arms, self._distances, progress)
+        return JudgeRecord.of(
+            state=self._state,
+            doors=self.mission.floor_plan.derived(_door_ends),
+            arms=self._arms,
+            distances=self._distances,
+            progress=self.follower.progress,
+        )
 
     def __getstate__(self) -> dict[str, Any]:
         left_out = ("record", "row", "_numbers")

@@ -10,7 +10,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numba.experimental import structref
 
 from semnav_env.judge.exact_hypot import exact_hypot
 from semnav_env.mind.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
@@ -18,7 +17,7 @@ from semnav_env.mind.grounding.crossing import first_crossed
 from semnav_env.world.grid.costs import cost_at
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
-from semnav_features.kernels.structures import ArraysType
+from semnav_features.kernels.structures import Structure, numba_type
 
 DOOR_CROSSED, ASTRAY, TOO_STILL = 8, 16, 32
 """Events beside those of `clause_progress`, as bits: a door was crossed; the robot is inside an arm
@@ -29,12 +28,7 @@ NO_ARMS, NO_DISTANCES = np.empty((0, 5)), np.empty((0, 0))
 """Of a record without a goal."""
 
 
-@structref.register
-class JudgeRecordType(ArraysType):
-    """How compiled code sees `JudgeRecord`."""
-
-
-class JudgeRecord(structref.StructRefProxy):
+class JudgeRecord(Structure):
     """What a judge keeps count of in an episode.
 
     Attributes:
@@ -52,19 +46,7 @@ class JudgeRecord(structref.StructRefProxy):
     progress: np.ndarray
 
 
-structref.define_proxy(JudgeRecord, JudgeRecordType, list(JudgeRecord.__annotations__))
-
-
-@kernel
-def join_record(
-    state: np.ndarray,
-    doors: FloatArray,
-    arms: FloatArray,
-    distances: FloatArray,
-    progress: np.ndarray,
-) -> JudgeRecord:
-    """The arrays as one structure; they are shared, not copied."""
-    return JudgeRecord(state, doors, arms, distances, progress)
+JudgeRecordType = numba_type(JudgeRecord)
 
 
 @kernel

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.judge_state import PERIOD, Period
 from semnav_env.mind.belief.tracker import BeliefTracker
-from semnav_env.mind.belief.understand import Workbench, workbench_with
+from semnav_env.mind.belief.understand import Workbench
 from semnav_env.vector.robot_list import list_of, put
 from semnav_env.vector.tick import (
+    TeamArrays,
     begin_period,
-    join_team,
     report,
     tick,
     write_command_rows,
@@ -78,8 +78,16 @@ class Team:
         self._robots = list_of(envs[0].loop.arrays, count)
         self._who = np.zeros((count, 3), np.int64)
         taken, done = np.zeros((2, count), np.int64)
-        flags = self._thoughtful, taken, done, reported, self._written
-        self._arrays = join_team(self._robots, self.periods, events, *flags)
+        self._arrays = TeamArrays.of(
+            robots=self._robots,
+            periods=self.periods,
+            events=events,
+            thoughtful=self._thoughtful,
+            taken=taken,
+            done=done,
+            reported=reported,
+            written=self._written,
+        )
         self._rows = NO_ROWS
         for k in range(count):
             self.renew(k)
@@ -154,7 +162,7 @@ class Team:
         """A workbench for each thread, for scans of that many beams."""
         if beams > self._beams:
             self._beams = beams
-            self._workbenches = [workbench_with(scratch_array(beams)) for _ in self._parts]
+            self._workbenches = [Workbench.of(scratch=scratch_array(beams)) for _ in self._parts]
 
     def _note(self, twists: FloatArray, driven: NDArray[np.bool_]) -> None:
         if self._log_length == LOG_LENGTH:

@@ -10,7 +10,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numba.experimental import structref
 from numpy.typing import NDArray
 
 from semnav_env.control_period import RobotArrays, run_period
@@ -21,17 +20,12 @@ from semnav_env.vector.marks import Marks, is_set, set_mark
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.rows import put_row
-from semnav_features.kernels.structures import ArraysType
+from semnav_features.kernels.structures import Structure, numba_type
 
 Flags = NDArray[np.bool_]
 
 
-@structref.register
-class TeamArraysType(ArraysType):
-    """How compiled code sees `TeamArrays`."""
-
-
-class TeamArrays(structref.StructRefProxy):
+class TeamArrays(Structure):
     """The arrays of many robots, and how far a control period has come.
 
     Attributes:
@@ -55,22 +49,7 @@ class TeamArrays(structref.StructRefProxy):
     written: Flags
 
 
-structref.define_proxy(TeamArrays, TeamArraysType, list(TeamArrays.__annotations__))
-
-
-@kernel
-def join_team(
-    robots: Any,
-    periods: np.ndarray,
-    events: NDArray[np.int64],
-    thoughtful: Flags,
-    taken: Marks,
-    done: Marks,
-    reported: Flags,
-    written: Flags,
-) -> TeamArrays:
-    """The arrays as one structure; they are shared, not copied."""
-    return TeamArrays(robots, periods, events, thoughtful, taken, done, reported, written)
+TeamArraysType = numba_type(TeamArrays)
 
 
 @kernel

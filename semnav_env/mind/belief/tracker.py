@@ -26,11 +26,10 @@ from semnav_env.mind.belief.understand import (
     FIRST_SCAN,
     LOOK_DUE,
     Senses,
+    Workbench,
     extract_features,
-    join_senses,
     note_look,
     understand,
-    workbench_with,
 )
 from semnav_env.mind.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_bytes, put_goal
 from semnav_env.mind.grounding.follower import Follower
@@ -106,7 +105,7 @@ class BeliefTracker:
         self.rules, extractor = with_doors_of(rules, extractor)
         self.memory = SceneMemory(self.rules.door)
         self._record = extractor.as_record()
-        self._workbench = workbench_with(scratch_array(self.lidar.beams))
+        self._workbench = Workbench.of(scratch=scratch_array(self.lidar.beams))
         self._estimate = np.zeros(1, ESTIMATE)
         self._progress = np.zeros(1, CLAUSE_PROGRESS)
         self._told = ToldWays()
@@ -120,11 +119,20 @@ class BeliefTracker:
     def _join(self) -> Senses:
         self._buffer, self._contacts = self._estimate.data, self._estimate["contacts"][0]
         self._bytes = goal_bytes(self._estimate, "target"), goal_bytes(self._progress, "goal")
-        lidar = self.lidar.sensor, self.lidar.shared_directions
-        sensor = *lidar, self._record, self._workbench, self.mount
-        known: tuple[Any, Any] = self.memory.arrays, self.bumps.arrays
-        mind: tuple[Any, Any, Any] = self._estimate, self._progress, self._told.arrays
-        return join_senses(*sensor, self.ranges, self._features, *known, *mind)
+        return Senses.of(
+            limits=self.lidar.sensor,
+            beams=self.lidar.shared_directions,
+            record=self._record,
+            workbench=self._workbench,
+            mount=self.mount,
+            ranges=self.ranges,
+            features=self._features,
+            remembered=self.memory.arrays,
+            bumps=self.bumps.arrays,
+            estimate=self._estimate,
+            progress=self._progress,
+            told=self._told.arrays,
+        )
 
     def __getstate__(self) -> dict[str, Any]:
         self._keep_last_scene()
@@ -135,7 +143,7 @@ class BeliefTracker:
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         self._last_source, self.asked = nothing, set()
-        self._workbench = workbench_with(scratch_array(self.lidar.beams))
+        self._workbench = Workbench.of(scratch=scratch_array(self.lidar.beams))
         self.senses = self._join()
 
     def read_ranges_in(self, ranges: FloatArray) -> None:

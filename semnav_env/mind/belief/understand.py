@@ -10,7 +10,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numba.experimental import structref
 
 from semnav_env.mind.belief.attention import is_look_due
 from semnav_env.mind.belief.bump_kernels import forget_passed, note_contacts
@@ -19,19 +18,14 @@ from semnav_features.frames import FloatArray, Pose
 from semnav_features.kernels.chain import extract_arrays
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.memory import how_many_count, relocate, remember
-from semnav_features.kernels.structures import ArraysType
+from semnav_features.kernels.structures import Structure, numba_type
 
 FIRST_SCAN, LOOK_DUE = 8, 16
 """Events beside those of `clause_progress`, as bits: the command is to be begun; the clause is to
 be grounded anew, as after a bump into what was not known."""
 
 
-@structref.register
-class WorkbenchType(ArraysType):
-    """How compiled code sees `Workbench`."""
-
-
-class Workbench(structref.StructRefProxy):
+class Workbench(Structure):
     """Working memory of the extractor, for one scan at a time.
 
     Attributes:
@@ -41,21 +35,10 @@ class Workbench(structref.StructRefProxy):
     scratch: Any
 
 
-structref.define_proxy(Workbench, WorkbenchType, list(Workbench.__annotations__))
+WorkbenchType = numba_type(Workbench)
 
 
-@kernel
-def workbench_with(scratch: Any) -> Workbench:
-    """A workbench with this `Scratch`."""
-    return Workbench(scratch)
-
-
-@structref.register
-class SensesType(ArraysType):
-    """How compiled code sees `Senses`."""
-
-
-class Senses(structref.StructRefProxy):
+class Senses(Structure):
     """The arrays that a belief is made of.
 
     Attributes:
@@ -87,39 +70,7 @@ class Senses(structref.StructRefProxy):
     told: Any
 
 
-structref.define_proxy(Senses, SensesType, list(Senses.__annotations__))
-
-
-@kernel
-def join_senses(
-    limits: np.ndarray,
-    beams: FloatArray,
-    record: np.ndarray,
-    workbench: Workbench,
-    mount: Pose,
-    ranges: FloatArray,
-    features: Any,
-    remembered: Any,
-    bumps: Any,
-    estimate: np.ndarray,
-    progress: np.ndarray,
-    told: Any,
-) -> Senses:
-    """The arrays as one structure; they are shared, not copied."""
-    return Senses(
-        limits,
-        beams,
-        record,
-        workbench,
-        mount,
-        ranges,
-        features,
-        remembered,
-        bumps,
-        estimate,
-        progress,
-        told,
-    )
+SensesType = numba_type(Senses)
 
 
 @kernel

@@ -11,7 +11,6 @@ import math
 from typing import Any
 
 import numpy as np
-from numba.experimental import structref
 
 from semnav_env.world.lidar.lidar import measure
 from semnav_env.world.physics.drive import drive, lost_motion
@@ -19,7 +18,7 @@ from semnav_env.world.physics.drive_record import POSE, TWIST
 from semnav_env.world.simulator.odometry import advance
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.kernels.compiling import kernel
-from semnav_features.kernels.structures import ArraysType
+from semnav_features.kernels.structures import Structure, numba_type
 
 TOUCHED = 1
 """Event: the body touched something."""
@@ -53,12 +52,7 @@ NUMBERS = 10
 """How many numbers pose, velocity, odometry and speed are, with which `SENSING` begins."""
 
 
-@structref.register
-class SimulatorArraysType(ArraysType):
-    """The type of `SimulatorArrays` in compiled code."""
-
-
-class SimulatorArrays(structref.StructRefProxy):
+class SimulatorArrays(Structure):
     """The arrays of one simulated robot.
 
     Attributes:
@@ -80,21 +74,7 @@ class SimulatorArrays(structref.StructRefProxy):
     ranges: FloatArray
 
 
-structref.define_proxy(SimulatorArrays, SimulatorArraysType, list(SimulatorArrays.__annotations__))
-
-
-@kernel
-def join_simulator(
-    drive: np.ndarray,
-    solids: Any,
-    odometry: np.ndarray,
-    sensing: np.ndarray,
-    lidar: Any,
-    mount: Pose,
-    ranges: FloatArray,
-) -> SimulatorArrays:
-    """The arrays as one structure; they are shared, not copied."""
-    return SimulatorArrays(drive, solids, odometry, sensing, lidar, mount, ranges)
+SimulatorArraysType = numba_type(SimulatorArrays)
 
 
 @kernel

@@ -18,7 +18,7 @@ from semnav_env.world.simulator.sensing import (
     NUMBERS,
     SENSING,
     TOUCHED,
-    join_simulator,
+    SimulatorArrays,
     look,
     sense,
 )
@@ -126,9 +126,16 @@ class Simulator:
         self._join()
 
     def _join(self) -> None:
-        records = self.world.record, self.world.solids, self.odometry.record, self._record
         x, y, heading = map(float, self.lidar.mount)
-        self.arrays = join_simulator(*records, self.lidar.arrays, (x, y, heading), self.last_ranges)
+        self.arrays = SimulatorArrays.of(
+            drive=self.world.record,
+            solids=self.world.solids,
+            odometry=self.odometry.record,
+            sensing=self._record,
+            lidar=self.lidar.arrays,
+            mount=(x, y, heading),
+            ranges=self.last_ranges,
+        )
         self._numbers = self._record.view(np.float64)[:NUMBERS]
 
     def __getstate__(self) -> dict[str, Any]:
