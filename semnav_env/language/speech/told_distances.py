@@ -11,6 +11,10 @@ from semnav_env.language.speech.lexicon import SpeechLexicon
 AHEAD = 'in what distance? first say how far to go, for example "go 5 metres and turn left"'
 
 
+_GOING = ("go", "continue")
+"""Verbs beside "backwards" that say no more than it."""
+
+
 def problem_of_distance(items: Sequence[Item], words: Sequence[str]) -> tuple[str, int, int] | None:
     """The problem with "left in 5 metres", and the words' numbers."""
     for before, each in pairwise(items):
@@ -43,6 +47,6 @@ def _with_verb(
             start = min([at, *(item.start for item in said)])
             stop = max([found[1], *(item.stop for item in said)])
             verb = Item(ItemKind.VERB, start, stop, "reverse")
-            kept = [item for item in clause if item not in said]
+            kept = [item for item in clause if item not in said and item.value not in _GOING]
             return sorted([*kept, verb], key=lambda item: item.start)
     return clause
