@@ -73,6 +73,9 @@ def try_package(package: Path, folder: Path) -> None:
 
 def main() -> None:
     """Try all three: the wheel, the source package, and the copy."""
+    if shutil.which("git") is None or not (ROOT / ".git").exists():
+        print("packages are not tried: git, which tells their files, is not here")
+        return
     with TemporaryDirectory(prefix="semnav-packages-") as temporary:
         folder = Path(temporary)
         copy, packages = folder / "copy", folder / "packages"
