@@ -10,6 +10,7 @@ from semnav_env.language import (
     AmbiguousCommandError,
     Command,
     CommandError,
+    GoToDoor,
     Question,
     Stop,
     parse,
@@ -17,6 +18,7 @@ from semnav_env.language import (
 )
 from semnav_env.language.languages import languages
 from semnav_env.language.question import MOST_QUESTIONS, ask_until_clear
+from semnav_env.language.references import DoorReference, Side
 
 QUESTIONS = [
     ("turn 90 degrees", "Left, or right?"),
@@ -147,6 +149,16 @@ def test_a_choice_in_its_own_words_is_always_that_choice(random, language: str) 
     question = Question((first, second), languages()[language], parse)
     for command in (first, second):
         assert question.answer(command.say(language)) == command
+
+
+@pytest.mark.parametrize("language", sorted(languages()))
+@pytest.mark.parametrize("side", [side for side in Side if side is not Side.LEFT])
+def test_two_doors_on_any_two_sides_are_asked_about_by_their_sides(side, language: str) -> None:
+    spoken = languages()[language]
+    both = tuple(Command((GoToDoor(DoorReference(1, each)),)) for each in (Side.LEFT, side))
+    asked = Question(both, spoken, parse)
+    assert spoken.say(side).split()[0] in asked.text.lower()
+    assert asked.answer(spoken.say(side)) == both[1]
 
 
 def test_parse_asks_until_it_is_clear() -> None:
