@@ -7,6 +7,7 @@ from pymunk.constraints import GearJoint, PivotJoint
 
 from semnav_env.robots import RobotSpec
 from semnav_env.world.maps.placement import corners
+from semnav_env.world.physics.walls import add_walls
 from semnav_features.frames import FloatArray, Pose, to_parent
 
 SLOP = 1e-3
@@ -30,10 +31,7 @@ def solid_space(segments: FloatArray) -> pymunk.Space:
     space = pymunk.Space()
     space.collision_slop = SLOP
     space.collision_bias = OVERLAP_LEFT
-    for x1, y1, x2, y2 in segments.tolist():
-        shape = pymunk.Segment(space.static_body, (x1, y1), (x2, y2), 0.0)
-        shape.friction = 1.0
-        space.add(shape)
+    add_walls(space, segments)
     return space
 
 
