@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import shapely
+import shapely.affinity
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
@@ -16,6 +18,8 @@ from scipy.sparse.csgraph import dijkstra
 from semnav_env.world.grid.cells import Grid
 from semnav_env.world.grid.costs import ANYWHERE, costs_from, descent, nearest_reached
 from semnav_env.world.grid.distance import distance_to_marked
+from semnav_env.world.grid.occupancy import mark_inside
+from semnav_env.world.maps.floor_plan import edges_of
 from semnav_features.frames import FloatArray
 
 DIAGONAL = math.sqrt(2.0)
@@ -106,3 +110,19 @@ def test_points_outside_have_the_nearest_cell_inside() -> None:
     grid = Grid.over((0.0, 0.0), (2.0, 1.0), 0.5)
     assert grid.cell((-7.0, 9.0)) == (2, 0)
     assert grid.cell((9.0, -7.0)) == (0, 4)
+
+
+@given(st.integers(0, 2**31), st.integers(0, 3))
+def test_the_cells_inside_are_those_that_shapely_finds(seed: int, areas: int) -> None:
+    """Overlapping areas with bays and holes; no edge meets the middle of a cell."""
+    rng = np.random.default_rng(seed)
+    boxes = [shapely.box(*rng.uniform(-2, 8, 4)) for _ in range(3 * areas)]
+    shapes = [(boxes[3 * k] - boxes[3 * k + 1]) | boxes[3 * k + 2] for k in range(areas)]
+    shapes = [shapely.affinity.rotate(shape, 40.0 * k) for k, shape in enumerate(shapes)]
+    edges = [edges_of(shape) for shape in shapes]
+    starts = np.cumsum([0, *map(len, edges)])
+    grid = Grid(0.0, 0.5, 0.25, 20, 30)
+    inside = np.zeros(grid.shape, np.bool_)
+    mark_inside(inside, np.vstack((np.empty((0, 4)), *edges)), starts, *grid.frame)
+    expected = shapely.contains_xy(shapely.union_all(shapes), grid.x, grid.y[:, None])
+    np.testing.assert_array_equal(inside, expected)

@@ -5,8 +5,10 @@ from __future__ import annotations
 from hashlib import sha256
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_env.world.maps import FloorPlan
+from semnav_features.frames import FloatArray
 
 FINGERPRINT_DIGITS = 16
 """Length of a fingerprint in hexadecimal digits: 64 bits, so that no two plans of a split share one
@@ -23,9 +25,13 @@ def fingerprint(plan: FloorPlan) -> str:
     """
     doors = "".join(f"{d.name}|{_whole((*d.start, *d.end))}|{d.open}\n" for d in plan.doors)
     rooms = "".join(f"{r.name}|{_whole(r.polygon.bounds)}\n" for r in plan.rooms)
-    solid = "".join(_whole(row) for row in plan.segments.tolist())
+    solid = "".join(map(str, _millimetres(plan.segments).tolist()))
     return sha256(f"{solid}\n{doors}{rooms}".encode()).hexdigest()[:FINGERPRINT_DIGITS]
 
 
-def _whole(values: tuple[float, ...] | list[float]) -> str:
-    return f"{np.rint(np.array(values) * STEPS_PER_METRE).astype(np.int64).tolist()}"
+def _whole(values: tuple[float, ...]) -> str:
+    return f"{_millimetres(np.array(values)).tolist()}"
+
+
+def _millimetres(metres: FloatArray) -> NDArray[np.int64]:
+    return np.rint(metres * STEPS_PER_METRE).astype(np.int64)

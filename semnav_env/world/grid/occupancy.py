@@ -1,4 +1,4 @@
-"""The cells of a grid that something solid passes through, or comes near."""
+"""The cells of a grid that something solid passes through or comes near, or that areas cover."""
 
 from __future__ import annotations
 
@@ -77,3 +77,53 @@ def mark_segments(
             column = round(x1 + (x2 - x1) * k / steps)
             if 0 <= row < rows and 0 <= column < columns:
                 marked[row, column] = True
+
+
+@kernel
+def mark_inside(
+    marked: NDArray[np.bool_],
+    edges: FloatArray,
+    starts: NDArray[np.int64],
+    west: float,
+    south: float,
+    spacing: float,
+) -> None:
+    """Mark the cells whose point lies in an area; on its edges, rounding decides.
+
+    A row of cells crosses the closed outlines of an area an even number of times; what lies between
+    an odd crossing and the next one is inside.
+
+    Args:
+        marked: written, shape (rows, columns); row 0 is the southernmost.
+        edges: of the outlines of all areas, one after the other: x1, y1, x2, y2, shape (n, 4).
+        starts: index of the first edge of each area, and n.
+        west: x of the first column, metres.
+        south: y of the first row, metres.
+        spacing: spacing of the grid, metres.
+    """
+    rows, columns = marked.shape
+    crossings = np.empty(len(edges))
+    for area in range(len(starts) - 1):
+        lowest, highest = np.inf, -np.inf
+        for k in range(starts[area], starts[area + 1]):
+            lowest, highest = min(lowest, edges[k, 1]), max(highest, edges[k, 1])
+        if lowest > highest:
+            continue
+        first_row = max(0, math.ceil((lowest - south) / spacing))
+        last_row = min(rows - 1, math.floor((highest - south) / spacing))
+        for row in range(first_row, last_row + 1):
+            y, count = south + spacing * row, 0
+            for k in range(starts[area], starts[area + 1]):
+                x1, y1, x2, y2 = edges[k]
+                if (y1 > y) != (y2 > y):
+                    x, place = x1 + (x2 - x1) * (y - y1) / (y2 - y1), count
+                    while place > 0 and crossings[place - 1] > x:  # those so far are in order
+                        crossings[place] = crossings[place - 1]
+                        place -= 1
+                    crossings[place] = x
+                    count += 1
+            for k in range(0, count - 1, 2):
+                first = max(0, math.ceil((crossings[k] - west) / spacing))
+                last = min(columns - 1, math.floor((crossings[k + 1] - west) / spacing))
+                for column in range(first, last + 1):
+                    marked[row, column] = True

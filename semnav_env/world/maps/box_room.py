@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import get_num_coordinates
 
 from semnav_env.world.maps.floor_plan import FloorPlan, edges_of
 from semnav_features.frames import FloatArray, Pose
@@ -38,11 +39,10 @@ class SolidEdges:
     @classmethod
     def of(cls, plan: FloorPlan) -> SolidEdges:
         """Those of a plan."""
-        pieces = [edges_of(piece) for piece in plan.furniture.geometries]
-        starts = np.cumsum([0, *map(len, pieces)])
-        furniture = np.vstack((np.empty((0, 4)), *pieces))
+        pieces = np.asarray(plan.furniture.geometries)
+        starts = np.cumsum([0, *(get_num_coordinates(pieces) - 1)])  # a ring ends where it begins
         outline = edges_of(plan.boundary)
-        return cls(np.vstack((plan.segments, outline)), outline, furniture, starts)
+        return cls(np.vstack((plan.segments, outline)), outline, edges_of(pieces), starts)
 
     @property
     def arrays(self) -> tuple[FloatArray, FloatArray, FloatArray, NDArray[np.int64]]:

@@ -10,7 +10,16 @@ from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import Polygon, STRtree, get_coordinates, get_parts, get_rings, linestrings
+from shapely import (
+    Polygon,
+    STRtree,
+    get_coordinates,
+    get_parts,
+    get_rings,
+    linearrings,
+    linestrings,
+    polygons,
+)
 from shapely.geometry.base import BaseGeometry
 
 from semnav_features.frames import FloatArray, Point
@@ -182,7 +191,9 @@ class FloorPlan:
             for surface in self.surfaces
             if surface.material in (Material.FURNITURE, Material.PERSON) and surface.is_closed
         ]
-        return STRtree([Polygon(points) for points in closed])
+        corners = np.array([corner for points in closed for corner in points]).reshape(-1, 2)
+        piece = np.repeat(np.arange(len(closed)), [len(points) for points in closed])
+        return STRtree(polygons(linearrings(corners, indices=piece)))
 
     @cached_property
     def door_ends(self) -> FloatArray:
@@ -267,10 +278,16 @@ def _pairs(surface: Surface) -> list[tuple[Point, Point]]:
     return list(zip(surface.points, surface.points[1:], strict=False))
 
 
-def edges_of(area: BaseGeometry) -> FloatArray:
-    """The edges of an area's outline and of its holes, shape (n, 4): x1, y1, x2, y2 in metres."""
-    rings = [get_coordinates(ring) for ring in get_rings(get_parts(area))]
-    return np.vstack((np.empty((0, 4)), *(np.hstack((r[:-1], r[1:])) for r in rings)))
+def edges_of(areas: BaseGeometry | NDArray[Any]) -> FloatArray:
+    """The edges of outlines and of holes, shape (n, 4): x1, y1, x2, y2 in metres.
+
+    Args:
+        areas: an area, or an array of them.
+    """
+    corners, ring = get_coordinates(get_rings(get_parts(areas)), return_index=True)
+    joined = ring[:-1] == ring[1:]
+    edges: FloatArray = np.hstack((corners[:-1], corners[1:]))[joined]
+    return edges
 
 
 def _frozen(array: FloatArray) -> FloatArray:

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from semnav_env.world.grid.cells import Grid
 from semnav_env.world.grid.costs import ANYWHERE, cost_at, costs_from, descent, nearest_reached
 from semnav_env.world.grid.distance import distance_to_marked
-from semnav_env.world.grid.occupancy import clear_near
+from semnav_env.world.grid.occupancy import clear_near, mark_inside
+from semnav_env.world.maps.box_room import DOUBT, SolidEdges
 from semnav_env.world.maps.cell_budget import check_cells, spacing_within_budget
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.maps.recent_fields import RecentFields
@@ -99,35 +100,32 @@ class Geodesic:
     @cached_property
     def free(self) -> NDArray[np.bool_]:
         """Whether the robot's centre may be in each cell, shape (rows, columns)."""
-        floor_plan, grid = self._floor_plan, self.grid
-        inside = shapely.contains_xy(floor_plan.boundary, grid.x, grid.y[:, None])
-        free = np.asarray(inside, dtype=bool)
+        free, furniture = self._inside(), np.zeros(self.grid.shape, dtype=bool)
         reach = self._clearance - 1e-9  # what is exactly so far away is free
-        clear_near(free, floor_plan.segments, *grid.frame, reach)
-        self._block_inside(free, np.asarray(floor_plan.furniture.geometries))
-        return free
+        clear_near(free, self._floor_plan.segments, *self.grid.frame, reach)
+        self._check_furniture()
+        solid = self._floor_plan.derived(SolidEdges.of)
+        mark_inside(furniture, solid.furniture, solid.pieces, *self.grid.frame)
+        return free & ~furniture
 
-    def _block_inside(self, free: NDArray[np.bool_], pieces: NDArray[Any]) -> None:
-        """Clear the cells inside pieces of furniture, polygons: no way begins or ends there.
+    def _inside(self) -> NDArray[np.bool_]:
+        """Whether each cell lies in the boundary; exact geometry decides on its outline."""
+        outline = self._floor_plan.derived(SolidEdges.of).outline
+        inside = np.zeros(self.grid.shape, dtype=bool)
+        certain = np.ones(self.grid.shape, dtype=bool)
+        mark_inside(inside, outline, np.array([0, len(outline)]), *self.grid.frame)
+        clear_near(certain, outline, *self.grid.frame, DOUBT)
+        row, column = np.nonzero(~certain)
+        x, y = self.grid.x[column], self.grid.y[row]
+        inside[row, column] = shapely.contains_xy(self._floor_plan.boundary, x, y)
+        return inside
 
-        The cells in the bounding boxes of all pieces are tested in one call; `inner` counts those
-        of one piece, row by row.
-        """
-        west, south, spacing = self.grid.frame
-        bounds = shapely.bounds(pieces).reshape(-1, 4) - (west, south, west, south)
-        low, high = np.split(bounds, 2, 1)
-        first = np.ceil(low / spacing).astype(int)
-        sizes = np.maximum(np.floor(high / spacing).astype(int) + 1 - first, 0)
-        cells = sizes.prod(axis=1)
-        check_cells(cells.sum(), f"{self._floor_plan.name}: the {len(pieces)} pieces of furniture")
-        piece = np.repeat(np.arange(len(pieces)), cells)
-        inner = np.arange(len(piece)) - np.repeat(np.cumsum(cells) - cells, cells)
-        width = sizes[piece, 0]
-        column, row = first[piece, 0] + inner % width, first[piece, 1] + inner // width
-        x, y = west + spacing * column, south + spacing * row
-        shapely.prepare(pieces)
-        inside = shapely.contains_xy(pieces[piece], x, y)
-        free[row[inside], column[inside]] = False
+    def _check_furniture(self) -> None:
+        """Refuse furniture that covers too many cells, each piece counted alone."""
+        pieces = np.asarray(self._floor_plan.furniture.geometries)
+        low, high = np.split(shapely.bounds(pieces).reshape(-1, 4) / self.grid.spacing, 2, axis=1)
+        cells = (high - low + 1.0).prod(axis=1).sum()
+        check_cells(cells, f"{self._floor_plan.name}: the {len(pieces)} pieces of furniture")
 
     @cached_property
     def _weight(self) -> FloatArray:

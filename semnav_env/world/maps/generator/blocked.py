@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import cast
 
+import numpy as np
 import shapely
 
 from semnav_env.robots import WHEELCHAIR
@@ -39,10 +40,10 @@ def without_blocking(
 def _beside(leaf: tuple[Point, Point], surfaces: Sequence[Surface]) -> list[Surface]:
     """The furniture near the tip of a leaf."""
     tip = shapely.Point(leaf[1])
-    furniture = (surface for surface in surfaces if surface.material is Material.FURNITURE)
-    return [
-        piece for piece in furniture if shapely.Polygon(piece.points).distance(tip) < NARROW_GAP
-    ]
+    furniture = [surface for surface in surfaces if surface.material is Material.FURNITURE]
+    outlines = np.array([piece.points for piece in furniture]).reshape(-1, 5, 2)  # all are boxes
+    near = shapely.distance(shapely.polygons(outlines), tip) < NARROW_GAP
+    return [furniture[index] for index in np.flatnonzero(near)]
 
 
 def _is_reached(

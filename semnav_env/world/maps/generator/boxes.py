@@ -60,7 +60,8 @@ def box_of(along_x: bool, along: Span, across: Span) -> Box:
 
 def is_free(box: Box, taken: Iterable[Box]) -> bool:
     """Whether a box overlaps none of the others."""
-    return not any(box.overlaps(other) for other in taken)
+    west, south, east, north = box
+    return not any(west < e and w < east and south < n and s < north for w, s, e, n in taken)
 
 
 def without(spans: Iterable[Span], holes: Iterable[Span]) -> list[Span]:

@@ -123,7 +123,9 @@ def _along(rng: Generator, settings: OfficeSettings, wall: OfficeWall) -> Iterat
     along = wall.span[0] + WALL_GAP
     while along < wall.span[1]:
         kind = DESK_SIZES if chance(rng, 0.5) else CABINET_SIZES
-        length, depth = (5 * int(rng.integers(a // 5, b // 5 + 1)) for a, b in kind)
+        (least, most), (shallowest, deepest) = kind
+        length = 5 * int(rng.integers(least // 5, most // 5 + 1))
+        depth = 5 * int(rng.integers(shallowest // 5, deepest // 5 + 1))
         if kind is DESK_SIZES and chance(rng, 0.5):
             length, depth = depth, length
         end = along + length

@@ -150,7 +150,7 @@ def _row(
         cuts = _cuts(rng, settings, gap, front)
         area = int(rng.integers(len(cuts) - 1)) if chance(rng, settings.open_areas) else -1
         for i, span in enumerate(pairwise(cuts)):
-            wall = replace(band, span=(max(span[0], low), min(span[1], high)))
+            wall = OfficeWall(band.along_x, at, (max(span[0], low), min(span[1], high)), side)
             box = band.box(span, _depth(band, span, depth, taken))
             is_area = i == area and span[1] - span[0] >= 100 * AREA_WIDTHS[0]
             yield Lot(box, wall, index, is_area)
