@@ -29,6 +29,7 @@ from semnav_env.mind.belief.understand import (
     Workbench,
     extract_features,
     note_look,
+    read_ranges_in,
     understand,
 )
 from semnav_env.mind.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_bytes, put_goal
@@ -150,7 +151,7 @@ class BeliefTracker:
         """Take the array that a simulator writes, shape (beams,), for `ranges`."""
         if ranges is not self.ranges:
             self.ranges = ranges
-            self.senses = self._join()
+            read_ranges_in(self.senses, ranges)
 
     @for_one_thread
     def begin(self, command: Command, ways: Mapping[int, Way] = NO_WAYS) -> None:

@@ -74,6 +74,12 @@ SensesType = numba_type(Senses)
 
 
 @kernel
+def read_ranges_in(senses: Senses, ranges: FloatArray) -> None:
+    """Replace the array of the ranges; making the senses anew would take milliseconds."""
+    senses.ranges = ranges
+
+
+@kernel
 def understand(senses: Senses) -> int:
     """Take in the scan and the motion that stand in the senses; returns events.
 
