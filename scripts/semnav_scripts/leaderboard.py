@@ -9,6 +9,7 @@ from pathlib import Path
 from tyro.conf import Positional
 
 from semnav_agents.evaluation.attempts import Attempt, read_attempts, write_attempts
+from semnav_agents.evaluation.comparison import compare
 from semnav_agents.evaluation.leaderboard import (
     Estimate,
     Standing,
@@ -16,16 +17,14 @@ from semnav_agents.evaluation.leaderboard import (
     standings,
 )
 from semnav_agents.evaluation.provenance import UNKNOWN
-from semnav_scripts.leaderboard_text import plain_table
+from semnav_scripts.comparison_text import comparison_text
+from semnav_scripts.leaderboard_text import SHOWN_DIGITS, plain_table
 
 HEADINGS = (
     *("split", "robot", "agent", "n", "trainings"),
     *("success", "no contact", "SPL", "worst 5 %", "IQM", "version, rules"),
 )
 """Headings of the table."""
-
-SHOWN_DIGITS = 8
-"""Digits of a fingerprint in the table; files and JSON have all of them."""
 
 KEPT_SUFFIX = ".jsonl.gz"
 """Ending of the names of kept results."""
@@ -40,15 +39,21 @@ class Arguments:
     where all episodes agree. The last column says the version, and the first digits of the
     fingerprint of the rules; results under different rules are refused.
 
+    `--compare` takes two files of the same episodes and says how the agents differ: the difference
+    of their means with an interval of 95 %, in how many episodes either was better, and the sign
+    test of these numbers.
+
     Attributes:
         files: results, JSON Lines, or such compressed by gzip.
-        mixed: take results under different rules into one table.
+        compare: results of two agents on the same episodes, which are compared instead.
+        mixed: take results under different rules into one table, or compare them.
         markdown: print the table as Markdown.
         json: print it as JSON.
         keep: folder for the values that the table needs, with a small file for each evaluation.
     """
 
     files: Positional[tuple[Path, ...]]
+    compare: tuple[Path, Path] | None = None
     mixed: bool = False
     markdown: bool = False
     json: bool = False
@@ -56,6 +61,8 @@ class Arguments:
 
     def run(self) -> int:
         """Read, count and print."""
+        if self.compare is not None:
+            return self._compare(*self.compare)
         if not self.files:
             raise ValueError(
                 "give one file of results or more; `semnav evaluate --out` writes them"
@@ -72,6 +79,17 @@ class Arguments:
             print(markdown(rows), end="")
         else:
             print(plain(rows), end="")
+        return 0
+
+    def _compare(self, first: Path, second: Path) -> int:
+        """Compare two files, and print."""
+        if self.files or self.markdown or self.keep is not None:
+            raise ValueError("--compare takes two files, and no others, --markdown or --keep")
+        compared = compare(read_attempts(first), read_attempts(second), self.mixed)
+        if self.json:
+            print(json.dumps([asdict(each) for each in compared]))
+        else:
+            print("\n\n".join(map(comparison_text, compared)))
         return 0
 
 

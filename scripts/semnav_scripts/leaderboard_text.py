@@ -11,6 +11,9 @@ SHARED = ("split", "robot", "version, rules")
 LONGEST_NAME = 15
 """Length of an agent's name beyond which it has a line of its own, characters."""
 
+SHOWN_DIGITS = 8
+"""Digits of a fingerprint that are shown; files and JSON have all of them."""
+
 SEPARATOR = " "
 
 
