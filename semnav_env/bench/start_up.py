@@ -13,13 +13,14 @@ _SEMNAV = ("-m", "semnav_scripts.main")
 _EVERYTHING = """
 import gymnasium
 import numpy as np
-name = "semnav_env:SemNav-v0"
-envs = gymnasium.make_vec(name, num_envs=2, vectorization_mode="vector_entry_point")
-envs.reset(seed=0), envs.step(np.zeros((2, 2)))
-env = gymnasium.make(name)
-env.reset(seed=0)
-for _ in range(100):
-    env.step(np.array((0.5, 0.1)))
+name, many = "semnav_env:SemNav-v0", {"num_envs": 2, "vectorization_mode": "vector_entry_point"}
+for observation in ("semantic", "command", "all", "raw"):
+    envs = gymnasium.make_vec(name, **many, observation=observation)
+    envs.reset(seed=0), envs.step(np.zeros((2, 2)))
+    env = gymnasium.make(name, observation=observation)
+    env.reset(seed=0)
+    for _ in range(100):
+        env.step(np.array((0.5, 0.1)))
 """
 
 STARTS: dict[str, tuple[str, ...]] = {
@@ -53,7 +54,7 @@ def start_parts() -> list[Part]:
 
 
 def compile_seconds() -> float:
-    """Processor time, seconds, to compile the kernels of single and vector environments.
+    """Processor time, seconds, to compile single and vector environments, with all observations.
 
     The process uses an empty cache folder in place of the user's.
     """

@@ -13,6 +13,7 @@ from semnav_features.kernels.cache_repair import OLD_PART, OLD_VERSION, repair
 from semnav_features.kernels.kernel_cache import sealed, unsealed
 from semnav_scripts import checks
 from semnav_scripts.main import main
+from semnav_scripts.warming import WarmedGroup
 
 
 def kept(folder: Path, name: str, content: bytes = sealed(b"kernel"), age: float = 0.0) -> Path:
@@ -81,3 +82,18 @@ def test_one_wrong_bit_of_a_kept_kernel_is_found(place: int) -> None:
     data[place] ^= 1 << place % 8
     with pytest.raises(ValueError, match="checksum"):
         unsealed(bytes(data))
+
+
+def test_warming_says_how_long_each_group_and_all_of_them_took(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    groups = [WarmedGroup("agents", 1.25, ""), WarmedGroup("logs", 2.0, "no space left")]
+    monkeypatch.setattr("semnav_scripts.warming.warm", lambda: iter(groups))
+    main(["doctor", "--warm", "--json"])
+    told = {row["name"]: row for row in json.loads(capsys.readouterr().out)}
+    assert told["kernels of agents"]["detail"] == "ready after 1.2 s"
+    assert (told["kernels of logs"]["ok"], told["kernels of logs"]["detail"]) == (
+        False,
+        "no space left",
+    )
+    assert " s, 4 processes on " in told["kernels, in all"]["detail"]
