@@ -68,6 +68,7 @@ class GroundingRules:
             begins, so that this doorway does not count, metres: half of a door's width.
         faced_door_distance: a door no farther ahead than this is the one that a robot turns away
             from, metres.
+        some_distance: length of "a bit" and "a short way", metres: some three steps.
         way_door_depth: largest distance between a seen door and the told place of the door, in the
             direction through it, metres: odometry drifts.
         way_door_offset: the same distance along the wall, metres: less than from door to door.
@@ -110,6 +111,7 @@ class GroundingRules:
     behind_referent: Length = 0.3
     beside_doorway: Length = 0.5
     faced_door_distance: Length = 2.0
+    some_distance: Length = 2.0
     way_door_depth: Length = 1.5
     way_door_offset: Length = 1.0
     way_door_angle: Angle = math.radians(30.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from enum import StrEnum
@@ -46,10 +47,11 @@ class Place(StrEnum):
 
 
 class Unit(StrEnum):
-    """The unit of a distance."""
+    """The unit of a distance; SOME is of an amount that is not said: "a bit"."""
 
     METRES = "metres"
     STEPS = "steps"
+    SOME = "some"
 
 
 LAST = -1
@@ -64,10 +66,10 @@ MAX_ORDINAL = 20
 MAX_FROM_END = 10
 """The lowest ordinal is minus this: the tenth from the end."""
 
-MAX_AMOUNT = {Unit.METRES: 50.0, Unit.STEPS: 100.0}
+MAX_AMOUNT = {Unit.METRES: 50.0, Unit.STEPS: 100.0, Unit.SOME: 1.0}
 """The longest distance in each unit: 100 times `AMOUNT_STEP`, the most that a token holds."""
 
-AMOUNT_STEP = {Unit.METRES: 0.5, Unit.STEPS: 1.0}
+AMOUNT_STEP = {Unit.METRES: 0.5, Unit.STEPS: 1.0, Unit.SOME: 1.0}
 """Distances are multiples of this, in their unit, so that they can be tokens."""
 
 STEP_LENGTH = 0.7
@@ -124,25 +126,33 @@ class PlaceReference(Spoken):
 
 @dataclass(frozen=True, slots=True)
 class Distance(Spoken):
-    """A distance from where the clause begins: "3 metres", "5 steps".
+    """A distance from where the clause begins: "3 metres", "5 steps", "a bit".
 
     Attributes:
-        amount: a multiple of half a metre up to 50 metres, or 1 to 100 whole steps.
-        unit: metres or steps of `STEP_LENGTH`.
+        amount: a multiple of half a metre up to 50 metres, or 1 to 100 whole steps; 1 of `SOME`.
+        unit: metres, steps of `STEP_LENGTH`, or `SOME`.
     """
 
     amount: float
     unit: Unit = Unit.METRES
-    forms: ClassVar[tuple[Form, ...]] = tuple(
+    forms: ClassVar[tuple[Form, ...]] = (
         form(
-            unit,
-            f"{{amount}} {unit}",
-            f"{{amount}} {short}",
-            (None, 0, unit),
-            amount=Multiples(AMOUNT_STEP[unit], MAX_AMOUNT[unit]),
-            unit=unit,
-        )
-        for unit, short in ((Unit.METRES, "m"), (Unit.STEPS, "steps"))
+            *(Unit.SOME, "", "some", (None, 0, Unit.METRES)),  # no metres, as a token
+            amount=1.0,
+            unit=Unit.SOME,
+            sampled=False,
+        ),
+        *(
+            form(
+                unit,
+                f"{{amount}} {unit}",
+                f"{{amount}} {short}",
+                (None, 0, unit),
+                amount=Multiples(AMOUNT_STEP[unit], MAX_AMOUNT[unit]),
+                unit=unit,
+            )
+            for unit, short in ((Unit.METRES, "m"), (Unit.STEPS, "steps"))
+        ),
     )
 
     def __post_init__(self) -> None:
@@ -153,8 +163,13 @@ class Distance(Spoken):
 
     @property
     def metres(self) -> float:
-        """The distance in metres."""
-        return self.amount * (1.0 if self.unit is Unit.METRES else STEP_LENGTH)
+        """The distance in metres; NaN if it is not said, see `Situation.metres`."""
+        lengths = {Unit.METRES: 1.0, Unit.STEPS: STEP_LENGTH, Unit.SOME: math.nan}
+        return self.amount * lengths[self.unit]
+
+
+SOME = Distance(1.0, Unit.SOME)
+"""An amount that is not said: "a bit", "a short way"."""
 
 
 @dataclass(frozen=True, slots=True)

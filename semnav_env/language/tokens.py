@@ -38,8 +38,8 @@ MAX_NUMBER = 100
 
 It is the ordinal of a door or place: 1 to `MAX_ORDINAL`, then from `LAST_TOKEN` on the last, the
 second to last and so on, then `OTHER_TOKEN` for the other one. For a distance it is the number of
-half metres or of steps, for a turn the number of `DEGREE_STEP`, for a wait the number of seconds,
-and for a room its place among the names, from 1; 0 stands for all of them.
+half metres (0 for "a bit") or of steps, for a turn the number of `DEGREE_STEP`, for a wait the
+number of seconds, and for a room its place among the names, from 1; 0 stands for all of them.
 """
 
 LAST_TOKEN = MAX_ORDINAL + 1

@@ -174,10 +174,12 @@ def _example(option: object) -> object:
         return option.step
     if isinstance(option, type):
         known = {str: "kitchen", DoorReference: DoorReference(), RoomReference: RoomReference("a")}
-        return known[option] if option in known else option(*_first_values(option))
+        return known[option] if option in known else _last_example(option)
     return option
 
 
-def _first_values(kind: type) -> list[object]:
-    _, fields = open_fields(kind)[0]
-    return [1 if options[0] is int else _example(options[0]) for options in fields.values()]
+def _last_example(kind: type) -> object:
+    """A value of the last form of a class."""
+    form, fields = open_fields(kind)[-1]
+    values = {n: 1 if options[0] is int else _example(options[0]) for n, options in fields.items()}
+    return kind(**form.fixed, **values)

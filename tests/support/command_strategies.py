@@ -9,6 +9,7 @@ from semnav_env.language import (
     MAX_FROM_END,
     MAX_ORDINAL,
     OTHER,
+    SOME,
     Approach,
     Command,
     Distance,
@@ -43,6 +44,7 @@ places = st.one_of(st.just(PlaceReference(Place.END)), junctions)
 distances = st.one_of(
     st.integers(1, 100).map(lambda halves: Distance(halves / 2)),
     st.integers(1, 100).map(lambda steps: Distance(steps, Unit.STEPS)),
+    st.just(SOME),
 )
 turns_by = st.builds(
     Turn,

@@ -11,6 +11,7 @@ from semnav_env.language.clauses import DEGREE_STEP
 from semnav_env.language.declarations import DEGREES, SECONDS
 from semnav_env.language.references import AMOUNT_STEP, STEP_LENGTH, Unit
 from semnav_env.language.tokens import COLUMN_SIZES, LAST_TOKEN, TOKEN_REFERENTS
+from semnav_env.rules import GroundingRules
 
 MOST_COUNTED = 12
 """Largest ordinal with a number of its own in the description."""
@@ -66,10 +67,14 @@ def _describe(row: NDArray[np.int64]) -> NDArray[np.float32]:
 
 
 def _amounts(referent: int, number: int) -> NDArray[np.float32]:
-    """Metres, cosine and sine of an angle, seconds; each with a scale near 1."""
+    """Metres, cosine and sine of an angle, seconds; each with a scale near 1.
+
+    No metres are "a bit".
+    """
     amounts = np.zeros(_AMOUNTS, np.float32)
     if referent in _METRES:
-        amounts[0] = number * _METRES[referent] / 10.0
+        metres = number * _METRES[referent] or GroundingRules().some_distance
+        amounts[0] = metres / 10.0
     elif referent == _DEGREES:
         angle = math.radians(number * DEGREE_STEP)
         amounts[1:4] = math.cos(angle), math.sin(angle), angle / math.pi

@@ -33,7 +33,7 @@ SYMBOLS = (
     *("follow", "until", "past", "for", "turn", "turn_by", "turn_around"),
     *("to", "through", "in", "face", "wall", "wait", "if", "if_not", "else"),
     *("leave", "back", "search", "stop"),
-    *("door", *(place.value for place in Place), *ROOM_SYMBOLS, *Unit),
+    *("door", *(place.value for place in Place), *ROOM_SYMBOLS, Unit.METRES, Unit.STEPS),
     *(*SIDE_SYMBOLS, *_OTHER_SIDES, *VALUE_SYMBOLS, *_LITERALS),
 )
 """The symbols of the network; a command is a list of symbols between `START` and `END`.

@@ -17,10 +17,12 @@ The equivalences, each true by the rules of docs/commands.md:
 12. Places of a kind that are passed one after the other add up.
 13. "until D" is "to D" at the end and before a stop: the door is reached.
 14. Whether a room is open is seen in front of it, and its door is then the first one.
+15. "hallway for some" before a step that says where to adds nothing to "hallway".
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from semnav_env.language.command import Command
@@ -148,6 +150,9 @@ def _append(found: list[Step], step: Step) -> None:
     match before, step:
         case ("hallway",), ("turn", "left" | "right" as way, None):
             found[-1:] = [("turn", way, ("turning", 1))]
+        case ("hallway", "for", "some"), (verb, *rest) if _says_where(verb, rest):
+            found[-1:] = [("hallway",)]
+            _append(found, step)
         case ("to" | "in", _), ("stop",):
             pass
         case ("stop",), ("wait", _):
@@ -186,6 +191,13 @@ def _append(found: list[Step], step: Step) -> None:
             found[-1:] = [(verb, door)]
         case _:
             found.append(step)
+
+
+def _says_where(verb: str, rest: Sequence[object]) -> bool:
+    """Whether a step says where a way along the hallway ends."""
+    if verb == "hallway":
+        return rest[:1] != ["for"]
+    return verb in ("through", "to", "in", "room") or (verb == "turn" and rest[0] != "around")
 
 
 def _same_door(door: Step, again: Step) -> bool:

@@ -32,7 +32,6 @@ NAMED_ORDINALS = ("nearest", "any", "other")
 DOOR_SIDES = ("left", "right", "ahead", "behind", "opposite")
 
 _CONDITION = re.compile(r"if ([^:]+): ?(.*?)(?: else: ?(.*))? end")
-_DISTANCE = r"([\d.]+) (m|steps?)"
 _BEFORE_PLACE = re.compile(r"(?:until|past|at|to|face|after|before)$")
 
 
@@ -106,8 +105,8 @@ def _step(text: str) -> Step:
     match text.split(" ", 1):
         case [verb] if verb in {*_verbs(None), "cross"}:
             return (verb,)
-        case ["hallway", rest] if found := re.fullmatch(f"for {_DISTANCE}", rest):
-            return ("hallway", "for", float(found[1]), found[2][0])
+        case ["hallway", rest] if rest.startswith("for "):
+            return ("hallway", "for", *_distance(rest[4:]))
         case ["hallway", rest] if rest.startswith(("until ", "past ")):
             relation, place = rest.split(" ", 1)
             return ("hallway", relation, read_place(place))
@@ -142,6 +141,16 @@ def _verbs(followed_by: type | None) -> frozenset[str]:
     return frozenset(found)
 
 
+def _distance(text: str) -> Step:
+    """Number and unit of a distance; "some" has only a unit."""
+    if text == "some":
+        return ("some",)
+    found = re.fullmatch(r"([\d.]+) (m|steps?)", text)
+    if found is None:
+        raise ValueError(f"{text!r} is no distance of a meaning")
+    return (float(found[1]), found[2][0])
+
+
 def _condition(what: str) -> tuple[str, Any]:
     for word in ("no", "closed", "open"):
         if what.startswith(f"{word} "):
@@ -168,8 +177,8 @@ def read_place(text: str) -> Step:
     text = text.strip()
     if room := re.fullmatch(r"room\((.+)\)", text):
         return ("room", room[1].strip().casefold())
-    if distance := re.fullmatch(_DISTANCE, text):
-        return ("distance", float(distance[1]), distance[2][0])
+    if text == "some" or text[:1].isdigit():
+        return ("distance", *_distance(text))
     if door := re.fullmatch(r"door\((.+)\)", text):
         return _door(door[1])
     place = re.fullmatch(

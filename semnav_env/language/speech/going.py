@@ -19,6 +19,7 @@ from semnav_env.language.clauses import (
     Turning,
 )
 from semnav_env.language.references import (
+    SOME,
     DoorReference,
     Place,
     PlaceReference,
@@ -174,17 +175,13 @@ def _entered(steps: list[Step], choices: Readings, in_hall: bool) -> tuple[list[
 
 
 def _joined(steps: Steps) -> Steps:
-    """The steps without "go down the hallway" before one that says how far."""
+    """The steps without "go down the hallway" and "go a bit" before one that says how far."""
     found: list[Step] = []
     for step in steps:
-        if found and found[-1] == Follow() and isinstance(step, Follow):
-            found.pop()
-        if (
-            isinstance(step, Follow)
-            and step.until is None
-            and found
-            and isinstance(found[-1], Follow)
-        ):
+        goes_on = bool(found) and isinstance(step, Follow) and isinstance(found[-1], Follow)
+        if goes_on and step in (Follow(), Follow(SOME)) and found[-1] != Follow():
             continue
+        if goes_on and found[-1] in (Follow(), Follow(SOME)):
+            found.pop()
         found.append(step)
     return tuple(found)

@@ -6,7 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from semnav_env.language.references import Distance, Unit
+from semnav_env.language.references import SOME, Distance, Unit
 from semnav_env.language.speech.items import Item, ItemKind, Noun
 from semnav_env.language.speech.lexicon import SpeechLexicon
 from semnav_env.language.speech.nouns import NounReader
@@ -189,6 +189,8 @@ class ItemWords(ABC):
         """Degrees, distances and times, with "for" or "by" before them."""
         if angle := self.lexicon.find(self.words, at, "angle"):
             yield Item(ItemKind.DEGREES, at, angle[1], float(angle[0]))
+        if some := self.lexicon.find(self.words, at, "some"):
+            yield Item(ItemKind.DISTANCE, at, some[1], SOME)
         prefix = self.nouns._preposition(at, "for")
         for start in dict.fromkeys((at, prefix or at)):
             here = start

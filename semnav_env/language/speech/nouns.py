@@ -47,6 +47,8 @@ class NounReader(NounWords):
             at: number of its first word.
             determined: its article stands before it ("zur nächsten").
         """
+        if self.find(at, "some"):
+            return None  # "a little way down the hallway"
         noun, here = Noun(""), at
         said_which = is_article = False
         while here < min(len(self.words), at + LONGEST_NOUN):

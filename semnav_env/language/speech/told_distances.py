@@ -1,10 +1,12 @@
-"""Reads distances that are driven backwards, and finds those that no command can say."""
+"""Reads amounts and distances that are driven backwards; finds those that no command can say."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import groupby, pairwise
 
+from semnav_env.language.references import SOME
 from semnav_env.language.speech.items import JOINTS, Item, ItemKind
 from semnav_env.language.speech.lexicon import SpeechLexicon
 
@@ -14,6 +16,9 @@ AHEAD = 'in what distance? first say how far to go, for example "go 5 metres and
 _GOING = ("go", "continue")
 """Verbs beside "backwards" that say no more than it."""
 
+_BESIDE_AMOUNTS = (ItemKind.SLIGHT, ItemKind.STRAIGHT, ItemKind.BACK, ItemKind.HERE)
+"""Items beside which "a bit" is of the way."""
+
 
 def problem_of_distance(items: Sequence[Item], words: Sequence[str]) -> tuple[str, int, int] | None:
     """The problem with "left in 5 metres", and the words' numbers."""
@@ -21,6 +26,29 @@ def problem_of_distance(items: Sequence[Item], words: Sequence[str]) -> tuple[st
         if each.kind is ItemKind.DISTANCE and list(words[before.start : each.start]) == ["in"]:
             return AHEAD, before.start, each.stop
     return None
+
+
+def with_amounts(items: Sequence[Item], words: Sequence[str], lexicon: SpeechLexicon) -> list[Item]:
+    """The items, with "a bit" as a distance where a clause only says to go on, or backwards."""
+    found: list[Item] = []
+    for _, group in groupby(items, lambda item: item.kind in JOINTS):
+        clause = list(group)
+        goes_on = (_goes_on(i) or lexicon.find(words, i.start, "backwards") for i in clause)
+        found += map(_as_amount, clause) if all(goes_on) else clause
+    return found
+
+
+def _goes_on(item: Item) -> bool:
+    """Whether an item can stand in a clause that only says to go on."""
+    if item.kind is ItemKind.VERB:
+        return item.value in _GOING or item.value in ("back", "follow", "be")
+    hall = item.kind is ItemKind.REF and item.value.kind == "hall"
+    return hall or item.kind in _BESIDE_AMOUNTS
+
+
+def _as_amount(item: Item) -> Item:
+    is_slight = item.kind is ItemKind.SLIGHT
+    return replace(item, kind=ItemKind.DISTANCE, value=SOME) if is_slight else item
 
 
 def with_backing_up(

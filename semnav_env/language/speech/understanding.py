@@ -16,7 +16,11 @@ from semnav_env.language.speech.lexicon import SpeechLexicon
 from semnav_env.language.speech.reader import ItemReader
 from semnav_env.language.speech.rewriting import rewritten
 from semnav_env.language.speech.segmentation import MAX_PARTS, ClauseSegmentation, Parting, close
-from semnav_env.language.speech.told_distances import problem_of_distance, with_backing_up
+from semnav_env.language.speech.told_distances import (
+    problem_of_distance,
+    with_amounts,
+    with_backing_up,
+)
 from semnav_env.language.speech.unread import without_unread
 
 
@@ -129,7 +133,8 @@ def _understand(
             0,
             (QUESTION, found[-1].start, found[-1].stop),
         )
-    items = with_backing_up(rewritten(found), words, lexicon)
+    items = with_amounts(rewritten(found), words, lexicon)
+    items = with_backing_up(items, words, lexicon)
     if told := problem_of_distance(items, words):
         return Understanding((), 0.0, tuple(items), 0, told)
     while items and items[-1].kind in (ItemKind.NO, ItemKind.SIGN):

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from semnav_env.language.clauses import BackUp
+from semnav_env.language.references import SOME
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.goal import ReachGoal
 from semnav_env.mind.grounding.situation import Situation
@@ -22,6 +23,9 @@ LANE = 0.3
 PARALLEL = 1e-9
 """A wall whose ends differ less in their distance from the lane runs along it, metres."""
 
+LEAST = 0.5
+"""The shortest way back that is worth driving, metres."""
+
 TOLERANCE, SHARE = 0.5, 0.6
 """What the distance may be off by: metres, or a share of a shorter one."""
 
@@ -29,13 +33,15 @@ TOLERANCE, SHARE = 0.5, 0.6
 def backing_up_goal(clause: BackUp, situation: Situation) -> ReachGoal:
     """Be so far behind where the clause began, with the same heading.
 
-    What is not known behind the robot is taken for free.
+    What is not known behind the robot is taken for free. "A bit" is less where there is less room.
 
     Raises:
         GroundingError: a wall is in the way.
     """
     begin, accepted = situation.begin, situation.rules.success
-    asked, free = clause.distance.metres, room_behind(situation.scene, begin)
+    asked, free = situation.metres(clause.distance), room_behind(situation.scene, begin)
+    if clause.distance == SOME and free > BODY + LEAST:
+        asked = min(asked, free - BODY)
     if asked > free - BODY:
         raise GroundingError(f"{clause.distance} back: there is a wall {free:.1f} m behind")
     pose = compose(begin, (-asked, 0.0, 0.0))

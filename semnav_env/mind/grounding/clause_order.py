@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from semnav_env.language.clauses import Clause, Follow, GoToDoor, IfThere, Turn, Turning
-from semnav_env.language.references import PlaceReference
+from semnav_env.language.references import SOME, Distance, PlaceReference
 
 
 def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int:
@@ -37,14 +37,22 @@ def in_context(clauses: Sequence[Clause], index: int) -> Clause:
 
 
 def is_only_a_direction(clauses: Sequence[Clause], index: int) -> bool:
-    """Whether a clause is "go down the hallway" and the next one says where it ends."""
-    if clauses[index] != Follow() or index + 1 == len(clauses):
+    """Whether a clause is "go down the hallway" or "go a bit" and the next one says where it ends.
+
+    To turn around and to go so many metres does not end "go a bit".
+    """
+    if clauses[index] not in (Follow(), Follow(SOME)) or index + 1 == len(clauses):
         return False
     if _hangs_on_condition(clauses, index):
         return False
-    following = clauses[index + 1]
-    on_the_spot = isinstance(following, Turn) and following.degrees is not None
-    return isinstance(following, Follow | Turn | GoToDoor) and not on_the_spot
+    match clauses[index + 1]:
+        case Turn(turning, _, degrees):
+            around = turning is Turning.AROUND and clauses[index] == Follow(SOME)
+            return degrees is None and not around
+        case Follow(Distance()):
+            return clauses[index] == Follow()
+        case following:
+            return isinstance(following, Follow | GoToDoor)
 
 
 def comes_after_corridor(clauses: Sequence[Clause], index: int) -> bool:

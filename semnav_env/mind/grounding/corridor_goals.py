@@ -5,7 +5,14 @@ from __future__ import annotations
 import math
 
 from semnav_env.language.clauses import Follow, Turn, Turning
-from semnav_env.language.references import Distance, DoorReference, Place, RoomReference, Side
+from semnav_env.language.references import (
+    Distance,
+    DoorReference,
+    Place,
+    RoomReference,
+    Side,
+    Unit,
+)
 from semnav_env.mind.grounding.counted_doors import doors_along
 from semnav_env.mind.grounding.errors import GroundingError, UnclearError
 from semnav_env.mind.grounding.find import find_door, find_junction, junction_name
@@ -58,7 +65,7 @@ def follow_goal(clause: Follow, situation: Situation) -> Goal:
     """The goal of "follow the hallway until the next intersection"."""
     until, last_stop = clause.until, situation.last_stop
     if isinstance(until, Distance):
-        return _go_on(situation, _distance_along(until, situation), str(until))
+        return _go_on(situation, _distance_along(until, situation), _told(until, situation))
     if isinstance(until, DoorReference):
         return _follow_to_door(clause, until, situation)
     if isinstance(until, RoomReference):
@@ -108,13 +115,24 @@ def _where(clause: Follow) -> str:
     return f"behind {clause.until}" if clause.past else str(clause.until)
 
 
+def _told(distance: Distance, situation: Situation) -> str:
+    """A distance in words; of "a bit" also how long that is."""
+    if distance.unit is not Unit.SOME:
+        return str(distance)
+    from semnav_env.language.languages import english  # read when first spoken
+
+    return english().say("some_told", metres=situation.metres(distance))
+
+
 def _distance_along(distance: Distance, situation: Situation) -> float:
     """Distance to go along the corridor, metres; not beyond its end.
 
     Raises:
-        GroundingError: the corridor is known, and shorter.
+        GroundingError: the corridor is known, and shorter than a distance in numbers.
     """
     most = situation.corridor.end - situation.rules.grounding.end_margin / 2
+    if distance.unit is Unit.SOME:
+        return max(0.0, min(situation.metres(distance), most))
     if distance.metres > most and situation.complete:
         raise GroundingError(
             f"{distance} ahead: the hallway ends after {situation.corridor.end:.1f} m"

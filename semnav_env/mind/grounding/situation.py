@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from semnav_env.language.references import DoorReference, Side
+from semnav_env.language.references import Distance, DoorReference, Side, Unit
 from semnav_env.mind.grounding.goal_check import looks_along
 from semnav_env.mind.grounding.search import Searching
 from semnav_env.mind.grounding.ways import Way
@@ -76,6 +76,11 @@ class Situation:
     def looks_along(self, heading: float) -> bool:
         """Whether the robot has inspected a direction."""
         return looks_along(self.pose, heading, self.rules.grounding.inspection_angle)
+
+    def metres(self, distance: Distance) -> float:
+        """A distance in metres; that of `SOME` is a rule."""
+        is_some = distance.unit is Unit.SOME
+        return self.rules.grounding.some_distance if is_some else distance.metres
 
     def turn_to(self, heading: float, what: object) -> Searching:
         """A search by turning on the spot, where the clause began."""
