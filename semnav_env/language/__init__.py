@@ -21,6 +21,7 @@ from semnav_env.language.clauses import (
 from semnav_env.language.command import MAX_CLAUSES, Command
 from semnav_env.language.own_clause import OwnClause
 from semnav_env.language.references import (
+    ENTRY,
     LAST,
     MAX_FROM_END,
     MAX_ORDINAL,
@@ -54,6 +55,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "CLAUSE_FEATURES",
+    "ENTRY",
     "LAST",
     "MAX_CLAUSES",
     "MAX_FROM_END",

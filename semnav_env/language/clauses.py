@@ -20,6 +20,7 @@ from semnav_env.language.declarations import (
     form,
 )
 from semnav_env.language.references import (
+    ENTRY,
     Distance,
     DoorReference,
     Place,
@@ -103,6 +104,7 @@ class Follow(Clause):
         at_end = isinstance(self.until, PlaceReference) and self.until.place is Place.END
         if self.past and (self.until is None or at_end or isinstance(self.until, Distance)):
             raise ValueError(f"one can go past a door or a junction, not {self.until}")
+        _check_ahead(self.until)
 
 
 @dataclass(frozen=True, slots=True)
@@ -327,6 +329,13 @@ class IfThere(Clause):
     def __post_init__(self) -> None:
         if not isinstance(self.what, DoorReference | PlaceReference):
             raise ValueError(f"a condition is on a door or a place ahead, not on {self.what!r}")
+        _check_ahead(self.what)
+
+
+def _check_ahead(reference: object) -> None:
+    """Refuse the door by which the robot came where something ahead is to be named."""
+    if isinstance(reference, DoorReference) and reference.ordinal == ENTRY:
+        raise ValueError(f"{reference} lies behind: one goes to it or through it, or faces it")
 
 
 CLAUSE_KINDS: dict[str, type[Clause]] = {

@@ -60,6 +60,9 @@ LAST = -1
 OTHER = 0
 """The ordinal of "the other door": the only one besides the door by which the robot came."""
 
+ENTRY = -100
+"""In place of an ordinal: "the door we came in by", through which the robot came last."""
+
 MAX_ORDINAL = 20
 """The highest ordinal of doors and places; the languages have words up to it."""
 
@@ -82,13 +85,19 @@ class DoorReference(Spoken):
 
     Attributes:
         ordinal: 1 for the first or next, n for the nth, `LAST` for the last, -n for the nth from
-            the end, `OTHER` for the only other one.
-        side: on which side; None if the command does not say.
+            the end, `OTHER` for the only other one, `ENTRY` for the one by which the robot came.
+        side: on which side; None if the command does not say, and for `ENTRY`.
     """
 
     ordinal: int = 1
     side: Side | None = None
     forms: ClassVar[tuple[Form, ...]] = (
+        form(
+            *("door_entry", "", "door(entry)", (None, 0, DOOR)),
+            ordinal=ENTRY,
+            side=None,
+            sampled=False,
+        ),
         form("door", "door {ordinal}", "door({ordinal})", (None, 0, DOOR)),
         form(
             "door_{side}",
@@ -100,7 +109,9 @@ class DoorReference(Spoken):
     )
 
     def __post_init__(self) -> None:
-        if self.ordinal != OTHER or isinstance(self.ordinal, float):
+        if self.ordinal == ENTRY and self.side is not None:
+            raise ValueError("the door by which the robot came is one door: say no side")
+        if self.ordinal not in (OTHER, ENTRY) or isinstance(self.ordinal, float):
             _check_ordinal("door", self.ordinal)
 
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 from hypothesis import strategies as st
 
 from semnav_env.language import (
+    ENTRY,
     MAX_CLAUSES,
     MAX_FROM_END,
     MAX_ORDINAL,
@@ -37,6 +38,7 @@ ordinals = st.integers(-MAX_FROM_END, MAX_ORDINAL).filter(lambda ordinal: ordina
 doors = st.builds(
     DoorReference, ordinals | st.just(OTHER), st.one_of(st.none(), st.sampled_from(Side))
 )
+approached_doors = doors | st.just(DoorReference(ENTRY))
 junctions = st.builds(
     PlaceReference, st.sampled_from([place for place in Place if place is not Place.END]), ordinals
 )
@@ -60,11 +62,13 @@ clauses = st.one_of(
     st.just(SearchHouse()),
     st.just(GoBack()),
     st.builds(GoToRoom, rooms, st.sampled_from((Approach.TO, Approach.THROUGH))),
-    st.builds(Face, st.one_of(doors, places, room_references, st.sampled_from(turned_sides))),
+    st.builds(
+        Face, st.one_of(approached_doors, places, room_references, st.sampled_from(turned_sides))
+    ),
     st.builds(Follow, room_references, st.booleans()),
     turns_by,
     st.builds(Turn, st.sampled_from(Turning), st.one_of(st.none(), places)),
-    st.builds(GoToDoor, doors, st.sampled_from(Approach)),
+    st.builds(GoToDoor, approached_doors, st.sampled_from(Approach)),
     st.builds(Follow, st.one_of(st.none(), places, doors, distances)),
     st.builds(Follow, st.one_of(junctions, doors), past=st.just(True)),
 )

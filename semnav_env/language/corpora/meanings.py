@@ -18,6 +18,7 @@ The equivalences, each true by the rules of docs/commands.md:
 13. "until D" is "to D" at the end and before a stop: the door is reached.
 14. Whether a room is open is seen in front of it, and its door is then the first one.
 15. "hallway for some" before a step that says where to adds nothing to "hallway".
+16. "through door(entry)" is "leave".
 """
 
 from __future__ import annotations
@@ -79,6 +80,8 @@ def _unfolded(step: Step) -> list[Step]:
             return [("hallway", "until", ("end", 1))]
         case ("back", place):
             return [("turn", "around", None), ("hallway", "until", place)]
+        case ("through", ("door", "entry", *_)):
+            return [("leave",)]
         case ("leave", door):
             return _with_door(("through",), door)
         case ("through" | "to" | "in" as verb, ("door", *_) as door):

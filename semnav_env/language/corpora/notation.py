@@ -28,7 +28,7 @@ from semnav_env.language.references import OTHER
 Step: TypeAlias = tuple[Any, ...]
 Steps: TypeAlias = tuple[Step, ...]
 
-NAMED_ORDINALS = ("nearest", "any", "other")
+NAMED_ORDINALS = ("nearest", "any", "other", "entry")
 DOOR_SIDES = ("left", "right", "ahead", "behind", "opposite")
 
 _CONDITION = re.compile(r"if ([^:]+): ?(.*?)(?: else: ?(.*))? end")

@@ -86,7 +86,7 @@ def _back_to(noun: Noun, roles: frozenset[str]) -> Steps:
     if noun.kind in ("start", "way back", "it"):
         return (GoBack(),)
     if noun.kind == "entry":
-        return (TurnBack(), Follow(DoorReference()))
+        return moves(noun, roles or frozenset({"to"}), frozenset({"go"}))
     if noun.kind == "hall":
         return (TurnBack(), Follow())
     if noun.kind == "named" and "until" in roles:
@@ -198,7 +198,7 @@ def _leads_on(frame: ClauseFrame, door: Item) -> bool:
 def _is_bare_way_out(item: Item, frame: ClauseFrame) -> bool:
     """Of "Out the door", "zur Tür hinaus": the door by which the robot came."""
     noun, roles = item.value, frame.roles(item)
-    if noun.side is not None or noun.ordinal is not None or noun.at_end:
+    if noun.side is not None or noun.ordinal is not None or noun.at_end or noun.kind == "entry":
         return False
     return "out" in roles or (frame.goes_out and not roles & {"into", "through", "by"})
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from semnav_env.language.clause_readings import EnterMentionedDoor, IntoDoorway, Step
 from semnav_env.language.clauses import Approach, Follow, GoBack, GoToDoor, GoToRoom, Leave
 from semnav_env.language.references import (
+    ENTRY,
     LAST,
     DoorReference,
     Place,
@@ -34,6 +35,8 @@ def landmark(noun: Noun) -> Landmark:
         NoMeaningError: it names none.
         ValueError: its ordinal is out of range.
     """
+    if noun.kind == "entry":
+        return DoorReference(ENTRY)
     if noun.kind in ("door", "room", "one"):
         if noun.closed:
             raise ValueError("closed doors look like walls and do not count: name an open one")
@@ -56,7 +59,7 @@ def landmark(noun: Noun) -> Landmark:
 
 def is_door(noun: Noun) -> bool:
     """Whether a noun names a door; a room does by its door, unless it is the room around."""
-    return noun.kind in ("door", "room", "one")
+    return noun.kind in ("door", "room", "one", "entry")
 
 
 def is_this_room(noun: Noun) -> bool:
@@ -88,8 +91,6 @@ def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
         return _room(noun, roles, verbs)
     if noun.kind == "area":
         return _area(roles, verbs)
-    if noun.kind == "entry" and (roles & {"into", "through", "out"} or verbs & {"take", "leave"}):
-        return (Leave(),)
     if is_door(noun):
         return _door(noun, roles, verbs)
     return _place(noun, roles, verbs)
@@ -166,7 +167,7 @@ def _door(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     if noun.counted and not (roles & {"past", "after"} or verbs & {"pass"}):
         raise NoMeaningError("several doors")
     if "leave" in verbs or ("out" in roles and "into" not in roles):
-        bare = noun.ordinal is None and noun.side is None
+        bare = noun.kind != "entry" and noun.ordinal is None and noun.side is None
         return (Leave(),) if this_room or (bare and "out" in roles) else (GoToDoor(door),)
     if this_room and ("cross" in verbs or roles & {"through", "across"}):
         return (Follow(PlaceReference(Place.END)),)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from semnav_env.language.references import Side
+from semnav_env.language.references import DoorReference, Side
 from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.mind.grounding.door_geometry import bearing, heading_through
 from semnav_env.mind.grounding.errors import UnclearError
@@ -57,6 +57,26 @@ def doors_straight_ahead(scene: Scene, pose: Pose, rules: GroundingRules) -> lis
         for heading in [heading_between(pose[:2], door.midpoint)]
         for ahead in [to_local(pose, door.midpoint)[0]]
     ]
+
+
+def find_entry(reference: DoorReference, situation: Situation) -> CountedDoor:
+    """The door of "the door we came in by": the one through which the robot came last.
+
+    It is the seen door nearest to where that door was passed; where none is near, as it was then.
+
+    Raises:
+        UnclearError: no clause before led through a door, and the robot stands in no doorway.
+    """
+    scene, begin, rules = situation.scene, situation.begin, situation.rules.grounding
+    passed = situation.entry
+    door = doorway_at(scene, begin) if passed is None else passed.door
+    if door is None:
+        raise UnclearError(f"{reference}: the robot has come through no door; say which")
+    outward = (begin if passed is None else passed.pose)[2] + math.pi
+    off = [(math.dist(door.midpoint, seen.midpoint), seen) for seen in scene.doors]
+    near = [each for each in off if each[0] <= rules.way_door_offset]
+    seen = min(near, key=lambda each: each[0])[1] if near else door
+    return CountedDoor(seen, 0.0, Side.BEHIND, heading_through(seen, outward))
 
 
 def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:

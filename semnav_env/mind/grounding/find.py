@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from semnav_env.language.clauses import Turning
-from semnav_env.language.references import OTHER, DoorReference, PlaceReference, Side
+from semnav_env.language.references import ENTRY, OTHER, DoorReference, PlaceReference, Side
 from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.mind.grounding.door_geometry import heading_through
 from semnav_env.mind.grounding.errors import GroundingError, UnclearError
@@ -25,8 +25,12 @@ def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDo
 
     Raises:
         GroundingError: the corridor ended before such a door.
-        UnclearError: the side is open and doors on both fit.
+        UnclearError: the side is open and doors on both fit, or the robot has come through no door.
     """
+    if reference.ordinal == ENTRY:
+        from semnav_env.mind.grounding.behind import find_entry  # few commands need it
+
+        return Known(find_entry(reference, situation))
     if reference.side is Side.OPPOSITE:
         return _find_opposite(reference, situation)
     doors, more = named_doors(reference, situation)

@@ -79,6 +79,7 @@ class Follower:
     impossible: str | None = field(default=None, init=False)
     skipped: frozenset[int] = field(default=frozenset(), init=False)
     _beside: Door | None = field(default=None, init=False, repr=False)
+    _entry: PassGoal | None = field(default=None, init=False, repr=False)
     _lookouts: tuple[Pose, ...] = field(default=(), init=False, repr=False)
     _found: Goal | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
@@ -94,7 +95,7 @@ class Follower:
             standstill_speed=self.rules.success.standstill_speed,
             inspection_angle=self.rules.grounding.inspection_angle,
         )
-        self.skipped, self._beside = frozenset(), None
+        self.skipped, self._beside, self._entry = frozenset(), None, None
         self._begin_clause(scene, pose, pose)
 
     @property
@@ -185,6 +186,7 @@ class Follower:
             comes_after_corridor(self.command.clauses, self.active),
             self._way,
             self._beside,
+            self._entry,
             self._lookouts,
             rules=self.rules,
         )
@@ -194,7 +196,9 @@ class Follower:
         match self.goal:
             case ReachGoal(beside=beside, door=door):
                 self._beside = beside or door
-            case PassGoal() | SeekGoal():
+            case PassGoal() as passed:
+                self._beside, self._entry = None, passed
+            case SeekGoal():
                 self._beside = None
             case StopGoal():
                 pass  # it stays where the clause before led to

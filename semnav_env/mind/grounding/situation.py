@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from semnav_env.language.references import Distance, DoorReference, Side, Unit
+from semnav_env.mind.grounding.goal import PassGoal
 from semnav_env.mind.grounding.goal_check import looks_along
 from semnav_env.mind.grounding.search import Searching
 from semnav_env.mind.grounding.ways import Way
@@ -29,6 +30,7 @@ class Situation:
         after_corridor: whether the clause before was "go down the hallway".
         way: the told or driven way, for a clause that needs one.
         beside: the door to which, but not through which, the clause before led.
+        entry: the goal of the clause that led through a door last; None if none did.
         lookouts: poses at which the robot has looked for the referent, in the order of time.
         back: whether `begin` is turned around, see `towards`.
         rules: distances and tolerances.
@@ -41,6 +43,7 @@ class Situation:
     after_corridor: bool = False
     way: Way | None = None
     beside: Door | None = None
+    entry: PassGoal | None = None
     lookouts: tuple[Pose, ...] = ()
     back: bool = False
     rules: Rules = field(default=Rules(), repr=False)
