@@ -24,6 +24,7 @@ from semnav_env.language.references import (
     Distance,
     DoorReference,
     Place,
+    PlaceOffset,
     PlaceReference,
     RoomReference,
     Side,
@@ -79,7 +80,7 @@ class Follow(Clause):
         past: go on until `until` lies behind, so that it no longer counts.
     """
 
-    until: PlaceReference | DoorReference | RoomReference | Distance | None = None
+    until: PlaceReference | DoorReference | RoomReference | PlaceOffset | Distance | None = None
     past: bool = False
     forms: ClassVar[tuple[Form, ...]] = (
         form("follow", "follow", "hallway", (TokenVerb.FOLLOW,)),
@@ -91,7 +92,7 @@ class Follow(Clause):
             "until {until}",
             "hallway until {until}",
             (TokenVerb.FOLLOW,),
-            until=LANDMARK,
+            until=(*LANDMARK, PlaceOffset),
         ),
         form(
             *("follow_past", "past {until}", "hallway past {until}", (TokenVerb.PASS,)),
@@ -102,9 +103,10 @@ class Follow(Clause):
 
     def __post_init__(self) -> None:
         at_end = isinstance(self.until, PlaceReference) and self.until.place is Place.END
-        if self.past and (self.until is None or at_end or isinstance(self.until, Distance)):
+        is_far = self.until is None or isinstance(self.until, Distance | PlaceOffset)
+        if self.past and (at_end or is_far):
             raise ValueError(f"one can go past a door or a junction, not {self.until}")
-        _check_ahead(self.until)
+        _check_ahead(self.until.place if isinstance(self.until, PlaceOffset) else self.until)
 
 
 @dataclass(frozen=True, slots=True)

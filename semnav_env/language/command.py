@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from semnav_env.language.clauses import CLAUSE_KINDS, Clause, Follow, GoToRoom, IfThere
 from semnav_env.language.declarations import field_names
-from semnav_env.language.references import DoorReference, PlaceReference, RoomReference
+from semnav_env.language.references import DoorReference, PlaceOffset, PlaceReference, RoomReference
 
 if TYPE_CHECKING:
     from semnav_env.language.language import Language
@@ -112,19 +112,23 @@ def links_of(clauses: Sequence[Clause]) -> list[Link]:
 
 def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
     """The door or place to which a clause refers; None if there is none."""
+    return next(
+        (v for v in _places_of(clause) if isinstance(v, DoorReference | PlaceReference)), None
+    )
+
+
+def _places_of(clause: Clause) -> Iterator[object]:
+    """The values of a clause's fields; of a place that lies off another, that other place."""
     for name in field_names(type(clause)):
         value = getattr(clause, name)
-        if isinstance(value, DoorReference | PlaceReference):
-            return value
-    return None
+        yield value.place if isinstance(value, PlaceOffset) else value
 
 
 def room_of(clause: Clause) -> str | None:
     """The plain name of the room that a clause names; None if it names none."""
     if isinstance(clause, GoToRoom):
         return clause.name
-    values = (getattr(clause, name) for name in field_names(type(clause)))
-    return next((value.name for value in values if isinstance(value, RoomReference)), None)
+    return next((v.name for v in _places_of(clause) if isinstance(v, RoomReference)), None)
 
 
 def may_count_on(before: Clause, clause: Clause) -> bool:
@@ -135,6 +139,8 @@ def may_count_on(before: Clause, clause: Clause) -> bool:
     """
     first, second = reference_of(before), reference_of(clause)
     if not isinstance(before, Follow) or first is None or type(first) is not type(second):
+        return False
+    if any(isinstance(c, Follow) and isinstance(c.until, PlaceOffset) for c in (before, clause)):
         return False
     assert second is not None
     same = _kind(first) == _kind(second)

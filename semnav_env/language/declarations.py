@@ -151,6 +151,8 @@ class Spoken:
 
     __slots__ = ()
     forms: ClassVar[tuple[Form, ...]] = ()
+    untokened: ClassVar[tuple[str, ...]] = ()
+    """Fields for which a token has no room."""
 
     def say(self, language: Language, grammar: str = "") -> str:
         """In the words of a language, in the grammatical form (case) that a phrase asks for."""

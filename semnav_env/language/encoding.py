@@ -72,7 +72,7 @@ def row_of(value: Spoken, rooms: Sequence[str]) -> Row:
     parts = [
         _share(getattr(value, name), form.given.get(name), rooms)
         for name in field_names(type(value))
-        if name not in form.fixed
+        if name not in form.fixed and name not in value.untokened
     ]
     return _sum([_head(form), *parts])
 

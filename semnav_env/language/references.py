@@ -200,6 +200,39 @@ class RoomReference(Spoken):
         check_room_name(self.name)
 
 
+class Relation(StrEnum):
+    """On which side of a place something lies along the way."""
+
+    BEFORE = "before"
+    AFTER = "after"
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceOffset(Spoken):
+    """A place at a distance from another: "1 metre before the corner".
+
+    A token has no room for the distance, so it is that of the place.
+
+    Attributes:
+        distance: along the way.
+        relation: before the place, or after it.
+        place: a door, a place or a room; there is nothing after the end of the hallway.
+    """
+
+    distance: Distance
+    relation: Relation
+    place: DoorReference | PlaceReference | RoomReference
+    untokened: ClassVar[tuple[str, ...]] = ("distance", "relation")
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("offset_{relation}", "", "{distance} {relation} {place}", sampled=False),
+    )
+
+    def __post_init__(self) -> None:
+        is_end = isinstance(self.place, PlaceReference) and self.place.place is Place.END
+        if is_end and self.relation is Relation.AFTER:
+            raise ValueError(f"there is nothing after {self.place}")
+
+
 Reference: TypeAlias = DoorReference | PlaceReference | RoomReference | Distance
 
 _NAME = re.compile(rf"(?=.{{1,{MAX_NAME}}}$)[a-z0-9]+(?:[ ._-][a-z0-9]+)*", re.ASCII)

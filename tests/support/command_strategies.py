@@ -23,7 +23,9 @@ from semnav_env.language import (
     IfThere,
     Leave,
     Place,
+    PlaceOffset,
     PlaceReference,
+    Relation,
     RoomReference,
     SearchHouse,
     Side,
@@ -56,6 +58,12 @@ turns_by = st.builds(
 rooms = st.sampled_from(("kitchen", "printer room", "3.508", "room_west_1", "left", "12 b", "e-1"))
 room_references = st.builds(RoomReference, rooms)
 turned_sides = (Side.LEFT, Side.RIGHT)
+off_doors = st.builds(PlaceOffset, distances, st.sampled_from(Relation), doors | junctions)
+off_rooms = st.builds(PlaceOffset, distances, st.sampled_from(Relation), room_references)
+off_ends = st.builds(PlaceOffset, distances, st.just(Relation.BEFORE), places)
+offsets = st.builds(Follow, st.one_of(off_doors, off_rooms, off_ends))
+"""Without a token of their own, see `PlaceOffset`."""
+
 clauses = st.one_of(
     st.builds(Stop, st.integers(0, 100)),
     st.just(Leave()),

@@ -19,6 +19,7 @@ The equivalences, each true by the rules of docs/commands.md:
 14. Whether a room is open is seen in front of it, and its door is then the first one.
 15. "hallway for some" before a step that says where to adds nothing to "hallway".
 16. "through door(entry)" is "leave".
+17. "hallway past P; hallway for 2 m" is "hallway until 2 m after P".
 """
 
 from __future__ import annotations
@@ -156,6 +157,8 @@ def _append(found: list[Step], step: Step) -> None:
         case ("hallway", "for", "some"), (verb, *rest) if _says_where(verb, rest):
             found[-1:] = [("hallway",)]
             _append(found, step)
+        case ("hallway", "past", place), ("hallway", "for", *distance):
+            found[-1:] = [("hallway", "until", ("offset", tuple(distance), "after", place))]
         case ("to" | "in", _), ("stop",):
             pass
         case ("stop",), ("wait", _):

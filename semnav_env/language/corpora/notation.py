@@ -177,6 +177,8 @@ def read_place(text: str) -> Step:
     text = text.strip()
     if room := re.fullmatch(r"room\((.+)\)", text):
         return ("room", room[1].strip().casefold())
+    if offset := re.fullmatch(r"(some|[\d.]+ \w+) (before|after) (.+)", text):
+        return ("offset", _distance(offset[1]), offset[2], read_place(offset[3]))
     if text == "some" or text[:1].isdigit():
         return ("distance", *_distance(text))
     if door := re.fullmatch(r"door\((.+)\)", text):

@@ -147,6 +147,11 @@ def contexts_of(frame: ClauseFrame) -> tuple[Steps, list[Item]]:
     for item in frame.refs:
         roles = frame.roles(item)
         door = is_door(item.value)
+        if item.value.offset is not None:
+            if any(is_door(other.value) for other in frame.refs):
+                raise NoMeaningError("a door off a place")
+            steps.append(Follow(item.value.offset))
+            continue
         if "opposite" in roles:
             steps.append(Follow(landmark(item.value)))
             others = [r for r in frame.refs if r is not item and is_door(r.value)]

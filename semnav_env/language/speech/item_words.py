@@ -189,9 +189,11 @@ class ItemWords(ABC):
         """Degrees, distances and times, with "for" or "by" before them."""
         if angle := self.lexicon.find(self.words, at, "angle"):
             yield Item(ItemKind.DEGREES, at, angle[1], float(angle[0]))
-        if some := self.lexicon.find(self.words, at, "some"):
+        until = self.nouns._preposition(at, "until")
+        some = self.lexicon.find(self.words, until or at, "some")
+        if some or (until and (some := self.lexicon.find(self.words, until, "slight"))):
             yield Item(ItemKind.DISTANCE, at, some[1], SOME)
-        prefix = self.nouns._preposition(at, "for")
+        prefix = self.nouns._preposition(at, "for") or until
         for start in dict.fromkeys((at, prefix or at)):
             here = start
             if second := self.nouns._preposition(here, "for"):

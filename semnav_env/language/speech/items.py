@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import Any
 
-from semnav_env.language.references import Side
+from semnav_env.language.references import PlaceOffset, Side
 
 
 class ItemKind(StrEnum):
@@ -59,8 +59,8 @@ class Noun:
     """A door, a room, a hallway or a place as it is named.
 
     Attributes:
-        kind: "door", "room", "area" (a lobby), "hall", "named", "start", "wall", "it", "one", or a
-            place's value.
+        kind: "door", "room", "area" (a lobby), "hall", "named", "start", "wall", "it", "one",
+            "offset", or a place's value.
         ordinal: as in `DoorReference`; None if it is not said.
         side: None if it is not said.
         name: of a named room.
@@ -72,6 +72,7 @@ class Noun:
         at_end: it is at the end of the hallway; of a named room: its door is meant.
         closed: it is said to be closed.
         doorway: its opening is meant: "doorway", "threshold".
+        offset: of kind "offset": what it is.
     """
 
     kind: str
@@ -86,6 +87,7 @@ class Noun:
     at_end: bool = False
     closed: bool = False
     doorway: bool = False
+    offset: PlaceOffset | None = None
 
 
 @dataclass(frozen=True, slots=True)

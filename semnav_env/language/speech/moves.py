@@ -81,6 +81,8 @@ def moves(noun: Noun, roles: Set[str], verbs: Set[str]) -> tuple[Step, ...]:
     """
     if roles and not roles - {"of", "from", "with"}:
         raise NoMeaningError("of something else")  # "the door of the kitchen"
+    if noun.offset is not None:
+        return (Follow(noun.offset),)
     if noun.kind == "it":
         return _it(roles, verbs)
     if noun.kind == "start" and (not roles or roles & {"to", "until", "toward", "at", "into"}):

@@ -1,4 +1,4 @@
-"""Reads amounts and distances that are driven backwards; finds those that no command can say."""
+"""Reads amounts, and distances backwards or from a place; finds those that no command can say."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import groupby, pairwise
 
-from semnav_env.language.references import SOME
-from semnav_env.language.speech.items import JOINTS, Item, ItemKind
+from semnav_env.language.references import SOME, Distance, PlaceOffset, Relation
+from semnav_env.language.speech.items import JOINTS, Item, ItemKind, Noun
 from semnav_env.language.speech.lexicon import SpeechLexicon
+from semnav_env.language.speech.moves import landmark
 
 AHEAD = 'in what distance? first say how far to go, for example "go 5 metres and turn left"'
 
@@ -49,6 +50,39 @@ def _goes_on(item: Item) -> bool:
 def _as_amount(item: Item) -> Item:
     is_slight = item.kind is ItemKind.SLIGHT
     return replace(item, kind=ItemKind.DISTANCE, value=SOME) if is_slight else item
+
+
+def with_offsets(items: Sequence[Item], words: Sequence[str]) -> list[Item]:
+    """The items, with one place for "a metre before the corner" and "a bit before the corner"."""
+    found: list[Item] = []
+    for item in items:
+        accusative = item.kind is ItemKind.REF and words[item.start] in ("vor", "vors")
+        offset = _offset(found[-1], item, accusative) if found else None
+        if offset is None:
+            found.append(item)
+        else:
+            noun = Noun("offset", offset=offset)
+            found[-1:] = [Item(ItemKind.REF, found[-1].start, item.stop, noun, ("until",))]
+    return found
+
+
+def _offset(before: Item, item: Item, accusative: bool) -> PlaceOffset | None:
+    """The place that a distance and a noun behind it say; None if they say none together.
+
+    A German "vor" with an accusative says the place in front as well ("bis vor die Tür").
+    """
+    is_far = before.kind is ItemKind.DISTANCE and isinstance(before.value, Distance)
+    if item.kind is not ItemKind.REF or before.stop != item.start:
+        return None
+    try:
+        if ("before" in item.roles or accusative) and (is_far or before.kind is ItemKind.SLIGHT):
+            far = before.value if is_far else SOME
+            return PlaceOffset(far, Relation.BEFORE, landmark(item.value))
+        if is_far and {"after", "past"} & set(item.roles):
+            return PlaceOffset(before.value, Relation.AFTER, landmark(item.value))
+    except ValueError:
+        return None  # "after the end of the hallway"
+    return None
 
 
 def with_backing_up(

@@ -20,6 +20,7 @@ from semnav_env.language.speech.told_distances import (
     problem_of_distance,
     with_amounts,
     with_backing_up,
+    with_offsets,
 )
 from semnav_env.language.speech.unread import without_unread
 
@@ -133,7 +134,7 @@ def _understand(
             0,
             (QUESTION, found[-1].start, found[-1].stop),
         )
-    items = with_amounts(rewritten(found), words, lexicon)
+    items = with_amounts(with_offsets(rewritten(found), words), words, lexicon)
     items = with_backing_up(items, words, lexicon)
     if told := problem_of_distance(items, words):
         return Understanding((), 0.0, tuple(items), 0, told)

@@ -9,6 +9,7 @@ from semnav_env.language.references import (
     Distance,
     DoorReference,
     Place,
+    PlaceOffset,
     RoomReference,
     Side,
     Unit,
@@ -68,8 +69,8 @@ def follow_goal(clause: Follow, situation: Situation) -> Goal:
         return _go_on(situation, _distance_along(until, situation), _told(until, situation))
     if isinstance(until, DoorReference):
         return _follow_to_door(clause, until, situation)
-    if isinstance(until, RoomReference):
-        raise TypeError(f"{clause!r} is grounded by follow_to_room")
+    if isinstance(until, RoomReference | PlaceOffset):
+        raise TypeError(f"{clause!r} is grounded by goal_of")
     if until is None or until.place is Place.END:
         if math.isinf(last_stop):
             return search_goal(situation.go_on(END_OF_HALLWAY))

@@ -17,7 +17,7 @@ from semnav_env.language.clauses import (
     Turn,
 )
 from semnav_env.language.command import reference_of
-from semnav_env.language.references import RoomReference
+from semnav_env.language.references import PlaceOffset, RoomReference
 from semnav_env.mind.grounding.corridor_goals import follow_goal, turn_goal
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.goal import Goal, StopGoal
@@ -78,6 +78,10 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
             return door_goal(clause, situation)
         case Turn():
             return turn_goal(clause, situation)
+        case Follow(PlaceOffset() as offset):
+            from semnav_env.mind.grounding.offset_goals import offset_goal  # here, as it is rare
+
+            return offset_goal(offset, situation)
         case Follow(RoomReference()) | Face():
             from semnav_env.mind.grounding.landmark_goals import (
                 landmark_goal,  # here, as it is rare
