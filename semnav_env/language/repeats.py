@@ -1,4 +1,4 @@
-"""Says once what a speaker says twice: "to the end, to the last door"."""
+"""Says once what a speaker says twice: "to the end, to the last door", "a bit, two metres"."""
 
 from __future__ import annotations
 
@@ -13,7 +13,14 @@ from semnav_env.language.clauses import (
     IfThere,
 )
 from semnav_env.language.command import Command
-from semnav_env.language.references import LAST, DoorReference, Place, PlaceReference
+from semnav_env.language.references import (
+    LAST,
+    SOME,
+    Distance,
+    DoorReference,
+    Place,
+    PlaceReference,
+)
 
 _END = Follow(PlaceReference(Place.END))
 
@@ -40,6 +47,8 @@ def _merged(before: Clause, clause: Clause) -> list[Clause] | None:
         case Follow(PlaceReference() as place, False), Follow(same) if place == same and (
             clause == _END or clause.past
         ):
+            return [clause]
+        case Follow(Distance() as first), Follow(Distance()) if first == SOME:
             return [clause]
         case Follow(PlaceReference(Place.END)), GoToDoor(DoorReference(ordinal)) if ordinal == LAST:
             return [clause]

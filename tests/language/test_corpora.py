@@ -57,6 +57,9 @@ what is done otherwise, too = if no corner: stop else: turn left end = if corner
 a turn that depends on a place = if corner: turn left end = if corner: turn left at corner end
 a room is open at its door = if open room(lab): room(lab) end = to room(lab); if door(1): through door(1) end
 the first open one = if closed door(1): through door(2) else: through door(1) end = through door(1)
+some before what says where = hallway for some; turn left = turn left at turning
+out by the entry = through door(entry) = leave
+a distance after a place = hallway past door(2); hallway for 2 m = hallway until 2 m after door(2)
 """  # noqa: E501
 
 
@@ -83,6 +86,8 @@ def test_what_means_the_same_is_written_in_one_form(line: str) -> None:
         ("turn left; hallway", "hallway; turn left"),
         ("hallway past door(1); through door(1,left)", "through door(2,left)"),
         ("if door(1): stop end", "if no door(1): stop end"),
+        ("hallway for some; turn around", "hallway; turn around"),
+        ("hallway until 2 m after door(2)", "hallway until 2 m before door(2)"),
     ],
 )
 def test_what_means_something_else_differs(one: str, other: str) -> None:

@@ -34,8 +34,8 @@ def with_amounts(items: Sequence[Item], words: Sequence[str], lexicon: SpeechLex
     found: list[Item] = []
     for _, group in groupby(items, lambda item: item.kind in JOINTS):
         clause = list(group)
-        goes_on = (_goes_on(i) or lexicon.find(words, i.start, "backwards") for i in clause)
-        found += map(_as_amount, clause) if all(goes_on) else clause
+        goes_on = [_goes_on(i) or lexicon.find(words, i.start, "backwards") for i in clause]
+        found += map(_as_amount, clause) if all(goes_on) and len(clause) > 1 else clause
     return found
 
 

@@ -144,3 +144,14 @@ def test_a_robot_goes_a_bit_and_stands(robot: str) -> None:
     way = ((moved[0] - begin[0]) ** 2 + (moved[1] - begin[1]) ** 2) ** 0.5
     assert way == pytest.approx(LENGTH, abs=1.0)
     env.close()
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("go a bit further, half a metre", "go down the hallway for 0.5 metres"),
+        ("ein Stück geradeaus, zwei Meter", "go down the hallway for 2 metres"),
+    ],
+)
+def test_a_number_behind_an_amount_says_how_much(text: str, meant: str) -> None:
+    assert str(parse(text)) == meant
