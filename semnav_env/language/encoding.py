@@ -23,11 +23,12 @@ from semnav_env.language.declarations import (
     open_fields,
 )
 from semnav_env.language.own_clause import OwnClause
-from semnav_env.language.references import OTHER, Place, Side
+from semnav_env.language.references import ENTRY, OTHER, Place, Side
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.tokens import (
     CLAUSE_FEATURES,
     COLUMN_SIZES,
+    ENTRY_TOKEN,
     LAST_TOKEN,
     MAX_NUMBER,
     OTHER_TOKEN,
@@ -118,8 +119,8 @@ def _room_number(name: str, rooms: Sequence[str]) -> int:
 
 
 def _ordinal_token(ordinal: int) -> int:
-    if ordinal == OTHER:
-        return OTHER_TOKEN
+    if ordinal in (OTHER, ENTRY):
+        return OTHER_TOKEN if ordinal == OTHER else ENTRY_TOKEN
     return ordinal if ordinal > 0 else LAST_TOKEN - ordinal - 1
 
 

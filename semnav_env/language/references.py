@@ -94,7 +94,7 @@ class DoorReference(Spoken):
     forms: ClassVar[tuple[Form, ...]] = (
         form(
             *("door_entry", "", "door(entry)", (None, 0, DOOR)),
-            ordinal=ENTRY,
+            ordinal=(ENTRY,),
             side=None,
             sampled=False,
         ),

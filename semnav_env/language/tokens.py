@@ -37,9 +37,10 @@ MAX_NUMBER = 100
 """The fourth column is a number from 0 (none) to this.
 
 It is the ordinal of a door or place: 1 to `MAX_ORDINAL`, then from `LAST_TOKEN` on the last, the
-second to last and so on, then `OTHER_TOKEN` for the other one. For a distance it is the number of
-half metres (0 for "a bit") or of steps, for a turn the number of `DEGREE_STEP`, for a wait the
-number of seconds, and for a room its place among the names, from 1; 0 stands for all of them.
+second to last and so on, then `OTHER_TOKEN` for the other one and `ENTRY_TOKEN` for the one by
+which the robot came. For a distance it is the number of half metres (0 for "a bit") or of steps,
+for a turn the number of `DEGREE_STEP`, for a wait the number of seconds, and for a room its place
+among the names, from 1; 0 stands for all of them.
 """
 
 LAST_TOKEN = MAX_ORDINAL + 1
@@ -47,6 +48,9 @@ LAST_TOKEN = MAX_ORDINAL + 1
 
 OTHER_TOKEN = LAST_TOKEN + MAX_FROM_END
 """The number of "the other"."""
+
+ENTRY_TOKEN = OTHER_TOKEN + 1
+"""The number of "the door we came in by"."""
 
 TOKEN_SIDES = (None, Side.LEFT, Side.RIGHT, Side.AHEAD, Side.BEHIND, Side.OPPOSITE)
 """The fifth column is an index into these."""
