@@ -21,16 +21,10 @@ from semnav_agents.learning.compact import (
 from semnav_agents.learning.inertia import Inertia
 from semnav_agents.learning.policy import Policy, PolicySettings
 from semnav_agents.learning.shield import Shield
-from semnav_agents.networks.card import (
-    CARD_FILE,
-    Card,
-    bundled_names,
-    card_fields,
-    network_folder,
-    network_kind,
-)
+from semnav_agents.networks.bundled import bundled_names, network_folder, network_kind
 from semnav_env.mind.observations import read_odometry
 from semnav_env.mind.observations.layout import GOAL
+from semnav_env.networks.card import CARD_FILE, Card, card_fields
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_features.frames import points_to_parent
 from semnav_features.lidar_spec import LidarSpec

@@ -12,9 +12,8 @@ from tyro.conf import Positional, arg
 from semnav_agents.base import Agent, steps
 from semnav_agents.evaluation.drive import recognised_impossible
 from semnav_agents.registry import make_agent
-from semnav_agents.translating.interpreter import understand
 from semnav_env.env import SemNavEnv
-from semnav_env.language import SearchHouse
+from semnav_env.language import SearchHouse, parse
 from semnav_env.language.language import Language
 from semnav_env.language.speech.recognition import language_of_text
 from semnav_env.rendering.film import STEPS_PER_FRAME, Film
@@ -136,7 +135,7 @@ class Arguments:
         if self.command is None:
             raise ValueError("give a command for the robot, or --episode ID")
         plan = load_floor_plan(self.map or DEFAULT_MAP)
-        command = understand(self.command, self.language, plan.room_names, asking())
+        command = parse(self.command, self.language, plan.room_names, asking())
         spoken = language_of_text(self.command, self.language)
         options: dict[str, Any] = {"command": command, "language": spoken.code}
         if self.pose is not None:

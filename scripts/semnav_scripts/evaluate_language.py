@@ -11,8 +11,7 @@ from typing import Literal
 
 from tyro.conf import Positional
 
-from semnav_agents.translating.interpreter import understand
-from semnav_env.language import parse
+from semnav_env.language import parse, read
 from semnav_env.language.corpora import (
     Count,
     ParseOutcome,
@@ -73,7 +72,7 @@ class Arguments:
         return found
 
     def _understand(self) -> Understand:
-        return parse if self.grammar else understand
+        return read if self.grammar else parse
 
 
 def _is_shown(verdict: SentenceVerdict, show: str) -> bool:

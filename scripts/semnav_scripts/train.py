@@ -21,7 +21,7 @@ from semnav_agents.learning.reports import TrainingReport
 from semnav_agents.learning.rllib.options import RayOptions
 from semnav_agents.learning.rllib.start import start_training
 from semnav_agents.learning.session import Training, TrainingLimits, train
-from semnav_agents.networks.card import CARD_FILE
+from semnav_env.networks.card import CARD_FILE
 from semnav_features.sole_writer import sole_writer
 from semnav_scripts.train_hearing import train_hearing
 from semnav_scripts.training_progress import training_display

@@ -49,11 +49,12 @@ if TYPE_CHECKING:
         Interpreter,
         ModelInterpreter,
     )
-    from semnav_env.language.parser import correct, parse, readings
+    from semnav_env.language.parser import correct, read, readings
     from semnav_env.language.program import from_program, to_program
     from semnav_env.language.question import AmbiguousCommandError, Ask, Question
     from semnav_env.language.rewording import paraphrases
     from semnav_env.language.sampling import sample_clause, sample_command
+    from semnav_env.language.translating.interpreter import LearnedInterpreter, parse
 
 __all__ = [
     "CLAUSE_FEATURES",
@@ -82,6 +83,7 @@ __all__ = [
     "IfThere",
     "Interpretation",
     "Interpreter",
+    "LearnedInterpreter",
     "Leave",
     "ModelInterpreter",
     "OwnClause",
@@ -103,6 +105,7 @@ __all__ = [
     "from_program",
     "paraphrases",
     "parse",
+    "read",
     "readings",
     "sample_clause",
     "sample_command",
@@ -122,10 +125,11 @@ __getattr__ = lazy_names(
             "Interpreter",
             "ModelInterpreter",
         ),
-        ".parser": ("correct", "parse", "readings"),
+        ".parser": ("correct", "read", "readings"),
         ".program": ("from_program", "to_program"),
         ".question": ("AmbiguousCommandError", "Ask", "Question"),
         ".rewording": ("paraphrases",),
         ".sampling": ("sample_clause", "sample_command"),
+        ".translating.interpreter": ("LearnedInterpreter", "parse"),
     },
 )

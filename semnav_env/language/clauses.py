@@ -234,7 +234,7 @@ class BackUp(Clause):
     distance: Distance
     forms: ClassVar[tuple[Form, ...]] = (
         form(
-            *("back_up", "", "reverse {distance}", (TokenVerb.GO_BACK,)),
+            *("back_up", "reverse {distance}", "reverse {distance}", (TokenVerb.GO_BACK,)),
             distance=Distance,
             sampled=False,
         ),
@@ -279,6 +279,13 @@ class Stop(Clause):
     def __post_init__(self) -> None:
         if not isinstance(self.seconds, int) or not 0 <= self.seconds <= MAX_SECONDS:
             raise ValueError(f"a wait is of 1 to {MAX_SECONDS} seconds, not {shown(self.seconds)}")
+
+
+def waits_of(seconds: int) -> tuple[Stop, ...]:
+    """Waits that are so long together, each of at most `MAX_SECONDS`."""
+    count = -int(-seconds // MAX_SECONDS)
+    share, more = divmod(seconds, count)
+    return tuple(Stop(share + (index < more)) for index in range(count))
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Parses a text into a `Command`, or into an error that says what would have been right."""
+"""Reads a text by the grammar: a `Command`, or an error that says what would have been right."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ STOP_AT_ONCE = (Command((Stop(),)),)
 """The one reading of a call to stop."""
 
 
-def parse(
+def read(
     text: str,
     language: str | Language | None = None,
     rooms: Sequence[str] = (),
     ask: Ask | None = None,
 ) -> Command:
-    """The command that a text means.
+    """The command that a text means by the grammar alone; see `semnav_env.language.parse`.
 
     Args:
         text: for example "go down the hallway, turn left and go in the first door on the right";
@@ -44,7 +44,7 @@ def parse(
             that is an error.
 
     Returns:
-        The command; `parse(command.say(language), language) == command`.
+        The command; `read(command.say(language), language) == command`.
 
     Raises:
         CommandError: some of the text is not understood; nothing is guessed or left out.
@@ -84,13 +84,13 @@ def correct(command: Command, text: str, language: str | Language = "en") -> Com
     Raises:
         CommandError: the text does not correct that command.
     """
-    return parse(f"{command.say(language)}, {text}", language)
+    return read(f"{command.say(language)}, {text}", language)
 
 
 def readings(
     text: str, language: str | Language | None = None, rooms: Sequence[str] = ()
 ) -> tuple[Command, ...]:
-    """Every command that a text can mean; like `parse`, but several readings are no error.
+    """Every command that a text can mean by the grammar; several readings are no error.
 
     What goes without saying (`defaults`) is not decided here.
     """
@@ -113,7 +113,7 @@ def readings(
 
 
 def _reading(language: str | Language | None, rooms: Sequence[str]) -> Read:
-    return partial(parse, language=language, rooms=rooms)
+    return partial(read, language=language, rooms=rooms)
 
 
 def check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:

@@ -14,7 +14,7 @@ from semnav_env.language.declarations import Spoken, field_names, is_ordinal
 from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.phrase_table import plain_words
-from semnav_env.language.references import Side
+from semnav_env.language.references import ENTRY, Side
 from semnav_env.language.stops import is_stop
 
 Ask: TypeAlias = Callable[[str], str]
@@ -237,8 +237,8 @@ def _open_parts(first: Any, second: Any) -> tuple[Any, Any]:
         return first, second
     names = field_names(type(first))
     apart = [name for name in names if getattr(first, name) != getattr(second, name)]
-    if len(apart) != 1:
-        return first, second
+    if len(apart) != 1 or ENTRY in (getattr(each, apart[0]) for each in (first, second)):
+        return first, second  # "the door you came in by" is no ordinal
     parts = getattr(first, apart[0]), getattr(second, apart[0])
     if all(isinstance(part, Spoken) for part in parts):
         return _open_parts(*parts)

@@ -93,7 +93,7 @@ class DoorReference(Spoken):
     side: Side | None = None
     forms: ClassVar[tuple[Form, ...]] = (
         form(
-            *("door_entry", "", "door(entry)", (None, 0, DOOR)),
+            *("door_entry", "entry", "door(entry)", (None, 0, DOOR)),
             ordinal=(ENTRY,),
             side=None,
             sampled=False,
@@ -148,7 +148,7 @@ class Distance(Spoken):
     unit: Unit = Unit.METRES
     forms: ClassVar[tuple[Form, ...]] = (
         form(
-            *(Unit.SOME, "", "some", (None, 0, Unit.METRES)),  # no metres, as a token
+            *(Unit.SOME, "some", "some", (None, 0, Unit.METRES)),  # no metres, as a token
             amount=1.0,
             unit=Unit.SOME,
             sampled=False,
@@ -224,7 +224,14 @@ class PlaceOffset(Spoken):
     place: DoorReference | PlaceReference | RoomReference
     untokened: ClassVar[tuple[str, ...]] = ("distance", "relation")
     forms: ClassVar[tuple[Form, ...]] = (
-        form("offset_{relation}", "", "{distance} {relation} {place}", sampled=False),
+        form(
+            *(
+                "offset_{relation}",
+                "{distance} {relation} {place}",
+                "{distance} {relation} {place}",
+            ),
+            sampled=False,
+        ),
     )
 
     def __post_init__(self) -> None:

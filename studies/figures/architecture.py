@@ -61,10 +61,11 @@ ABOUT = {
     "semnav_agents/hearing": "agents that hear the command: a learned grounding for the planner",
     "semnav_agents/learning": "training and its files",
     "semnav_agents/learning/rllib": "training on more than one machine, with RLlib on Ray",
-    "semnav_agents/networks": "the layers of learned networks in NumPy, and their files",
+    "semnav_agents/networks": "where the networks of agents lie, and what their training shares",
+    "semnav_env/networks": "the layers of learned networks in NumPy, and their files",
     "semnav_agents/planning": "the planner of the scripted agent and the oracle",
     "semnav_agents/searching": "searching a house: poses to look from, and people to approach",
-    "semnav_agents/translating": "a learned translator that asks where the grammar refuses",
+    "semnav_env/language/translating": "a learned translator, and the ranker of what it and the grammar find",
     "semnav_scripts": "the `semnav` command",
 }
 

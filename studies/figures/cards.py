@@ -9,7 +9,8 @@ from typing import Any
 from semnav_agents.evaluation.attempts import Attempt, read_attempts
 from semnav_agents.hearing.network import NetworkShape
 from semnav_agents.learning.policy import PolicySettings
-from semnav_agents.networks.card import BUNDLED_FOLDER, Card, NetworkSettings
+from semnav_agents.networks.bundled import BUNDLED_FOLDER
+from semnav_env.networks.card import Card, NetworkSettings
 from studies.figures.leaderboard import RESULTS
 
 AGENTS: dict[str, type[NetworkSettings]] = {"drive": PolicySettings, "listener": NetworkShape}

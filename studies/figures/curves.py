@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from semnav_agents.hearing.network import NetworkShape
-from semnav_agents.networks.card import BUNDLED_FOLDER, Card
+from semnav_agents.networks.bundled import BUNDLED_FOLDER
+from semnav_env.networks.card import Card
 from studies.figures import IMAGES
 
 CURVES = IMAGES.parent / "results" / "curves"

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.language import parse
+from semnav_env.language import read
 from semnav_env.language.command import Command
 from semnav_env.language.corpora import ParseOutcome, Sentence, judge
 from semnav_env.language.corpora.measure import rooms_in
@@ -92,7 +92,7 @@ def changed_commands(programs: int, rng: np.random.Generator) -> Iterator[tuple[
         command = sample_command(rng)
         for language in FILLERS:
             try:
-                same = parse(command.say(language), language) == command
+                same = read(command.say(language), language) == command
             except CommandError:
                 same = False
             if not same:
@@ -110,6 +110,6 @@ def slowest_parse() -> float:
         ):  # refused by its length, and the longest read
             start = time.process_time()
             with suppress(CommandError):
-                parse(part)
+                read(part)
             slowest = max(slowest, time.process_time() - start)
     return slowest

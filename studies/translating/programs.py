@@ -6,6 +6,7 @@ from typing import Any
 
 from semnav_env.language.clauses import (
     Approach,
+    BackUp,
     Clause,
     Face,
     Follow,
@@ -17,16 +18,21 @@ from semnav_env.language.clauses import (
     Stop,
     Turn,
     Turning,
+    waits_of,
 )
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import ENDS, meaning_of, normal
 from semnav_env.language.corpora.notation import Step, Steps
 from semnav_env.language.references import (
+    ENTRY,
     OTHER,
+    SOME,
     Distance,
     DoorReference,
     Place,
+    PlaceOffset,
     PlaceReference,
+    Relation,
     RoomReference,
     Side,
     Unit,
@@ -49,8 +55,8 @@ def _clauses(step: Step) -> list[Clause]:
             return [Follow()]
         case ("cross",):
             return [Follow(PlaceReference(Place.END))]
-        case ("hallway", "for", amount, unit):
-            return [Follow(Distance(amount, Unit.METRES if unit == "m" else Unit.STEPS))]
+        case ("hallway", "for", *distance):
+            return [Follow(_distance(*distance))]
         case ("hallway", "until" | "past" as relation, place):
             before, what = _place(place)
             return [*before, Follow(what, relation == "past")]
@@ -87,7 +93,9 @@ def _clauses(step: Step) -> list[Clause]:
             before, what = _place(place)
             return [*before, Face(what)]
         case ("wait", seconds):
-            return [Stop(int(seconds))]
+            return [*waits_of(int(seconds))]
+        case ("reverse", ("distance", *distance)):
+            return [BackUp(_distance(*distance))]
         case ("stop",):
             return [Stop()]
         case ("if", *_):
@@ -95,9 +103,20 @@ def _clauses(step: Step) -> list[Clause]:
     raise ValueError(f"{step!r} is no clause")
 
 
+def _distance(amount: float | str, unit: str = "") -> Distance:
+    if isinstance(amount, str):
+        return SOME
+    return Distance(amount, Unit.METRES if unit == "m" else Unit.STEPS)
+
+
 def _condition(step: Step) -> list[Clause]:
     """A condition with its clauses; `command_of_meaning` drops what then means another thing."""
     _, word, place, then, otherwise = step
+    if place[0] == "room":  # whether it is open is seen in front of it
+        door, in_front = ("door", 1, None, None, None), ("to", place)
+        enter = tuple(("through", door) if each == place else each for each in then)
+        other = tuple(("through", door) if each == place else each for each in otherwise)
+        return [*_clauses(in_front), *_condition(("if", word, door, enter, other))]
     first = _place(place)[1]
     if word == "closed" and _takes_next(first, then, otherwise):
         return [GoToDoor(first)]
@@ -116,10 +135,13 @@ def _place(place: Step) -> tuple[list[Clause], Any]:
     match place:
         case ("room", name):
             return [], RoomReference(plain_name(name))
+        case ("offset", distance, relation, other):
+            before, what = _place(other)
+            return before, PlaceOffset(_distance(*distance), Relation(relation), what)
         case ("wall", int()):
             return [], PlaceReference(Place.END)
         case ("door", ordinal, side, relation, others):
-            named = {"other": OTHER, "any": 1, "nearest": 1}
+            named = {"other": OTHER, "entry": ENTRY, "any": 1, "nearest": 1}
             counted = named[ordinal] if ordinal in named else int(ordinal)
             door = DoorReference(counted, side and Side(side))
             return _relation(relation, others, door)

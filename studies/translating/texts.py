@@ -13,12 +13,15 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.language.clauses import Clause, IfThere, Turn, Turning
-from semnav_env.language.command import MAX_CLAUSES, Command, reference_of, room_of
+from semnav_env.language.clauses import IfThere, Turning
+from semnav_env.language.command import MAX_CLAUSES, Command, room_of
 from semnav_env.language.corpora import Sentence, load_sentences
 from semnav_env.language.corpora.measure import rooms_in
-from semnav_env.language.declarations import field_names
-from semnav_env.language.references import DoorReference, PlaceReference, Side
+from semnav_env.language.declarations import Spoken, field_names
+from semnav_env.language.errors import CommandError
+from semnav_env.language.languages import english
+from semnav_env.language.normalise import normalise
+from semnav_env.language.references import ENTRY, OTHER, DoorReference, PlaceReference, Side
 from semnav_env.language.rewording import paraphrases
 from semnav_env.language.sampling import sample_command
 from studies.speech.robustness import FILLERS, PUNCTUATION
@@ -31,6 +34,10 @@ JOINTS = {
     "de": (", dann ", " und dann ", " und ", ". ", ", ", ", danach ", " dann "),
 }
 """Words between two texts that are said one after the other."""
+
+
+JOINED = 0.35
+"""Probability that another text follows, behind each text."""
 
 
 @dataclass(frozen=True)
@@ -53,10 +60,21 @@ class TrainingText:
 
 
 def authored(path: Path) -> list[TrainingText]:
-    """The texts of a corpus; of a feasible one the first meaning that is a command."""
+    """The texts of a corpus, without those that are too long to be read.
+
+    Of a feasible one the first meaning that is a command counts.
+    """
     sentences = load_sentences(path)
     rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
-    return [_authored(each, rooms) for each in sentences]
+    return [_authored(each, rooms) for each in sentences if _is_readable(each.text)]
+
+
+def _is_readable(text: str) -> bool:
+    try:
+        normalise(text, english())
+    except CommandError:
+        return False
+    return True
 
 
 def _authored(sentence: Sentence, rooms: tuple[str, ...]) -> TrainingText:
@@ -89,33 +107,25 @@ def generated(
 
 def _revalued(command: Command, rng: np.random.Generator) -> Command:
     """The same command with other ordinals, and perhaps with left for right."""
-    swaps = bool(rng.integers(2))
-    return Command(tuple(_revalued_clause(each, swaps, rng) for each in command.clauses))
+    command = _mirrored_command(command) if rng.integers(2) else command
+    return Command(tuple(_recounted(each, rng) for each in command.clauses))
 
 
-_SWAPPED = {"left": "right", "right": "left"}
+def _recounted(value: Any, rng: np.random.Generator) -> Any:
+    """A clause or a part of one with other ordinals than the first, from the end or not."""
+    counted = isinstance(value, DoorReference | PlaceReference)
+    if counted and value.ordinal not in (1, OTHER, ENTRY):
+        return replace(value, ordinal=(2, 3, 4, 5, -1, -2)[int(rng.integers(6))])
+    return _changed(value, lambda part: _recounted(part, rng))
 
 
-def _revalued_clause(clause: Clause, swaps: bool, rng: np.random.Generator) -> Clause:
-    if isinstance(clause, Turn) and swaps:
-        clause = replace(clause, turning=Turning(_SWAPPED.get(clause.turning, clause.turning)))
-    what = reference_of(clause)
-    if what is None:
-        return clause
-    new = _revalued_reference(what, swaps, rng)
-    name = next(key for key in field_names(type(clause)) if getattr(clause, key) is what)
-    return _with(clause, name, new)
-
-
-def _revalued_reference(
-    what: DoorReference | PlaceReference, swaps: bool, rng: np.random.Generator
-) -> DoorReference | PlaceReference:
-    ordinal = what.ordinal
-    if ordinal not in (0, 1):
-        ordinal = (2, 3, 4, 5, -1, -2)[int(rng.integers(6))]
-    if isinstance(what, DoorReference) and what.side is not None and swaps:
-        return DoorReference(ordinal, Side(_SWAPPED.get(what.side, what.side)))
-    return replace(what, ordinal=ordinal)
+def _changed(value: Any, change: Callable[[Any], Any]) -> Any:
+    """A clause or a part of one with each of its fields changed; other values as they are."""
+    if not isinstance(value, Spoken):
+        return value
+    return replace(
+        value, **{name: change(getattr(value, name)) for name in field_names(type(value))}
+    )
 
 
 def disturbed(
@@ -126,10 +136,10 @@ def disturbed(
     for number in range(count):
         base = known[number % len(known)]
         others = by_language[base.language]
-        if rng.random() < 0.3:
+        while rng.random() < JOINED:
             base = joined(base, others[int(rng.integers(len(others)))], rng) or base
         for share, change in CHANGES:
-            if rng.random() < share:
+            if rng.random() < share and _is_readable(base.text):
                 base = change(base, rng)
         yield base
 
@@ -145,7 +155,7 @@ def joined(
         return replace(first, text=text, rooms=rooms, commands=())
     clauses = (*first.commands[0].clauses, *second.commands[0].clauses)
     conditional = any(isinstance(each, IfThere) for each in clauses)
-    if conditional or len(clauses) > MAX_CLAUSES - 2 or second.topic in ("correction", "ellipsis"):
+    if conditional or len(clauses) > MAX_CLAUSES or second.topic in ("correction", "ellipsis"):
         return None
     return replace(first, text=text, rooms=rooms, commands=(Command(clauses),))
 
@@ -188,6 +198,8 @@ def _with_slip(text: TrainingText, rng: np.random.Generator) -> TrainingText:
 
 
 _SIDE = re.compile(r"\b(left|right|links|rechts|linke|rechte)(?=\b|[nrsm]\b)", re.IGNORECASE)
+_SWAPPED = {"left": "right", "right": "left"}
+
 _MIRROR = {
     **{"left": "right", "right": "left", "links": "rechts", "rechts": "links"},
     **{"linke": "rechte", "rechte": "linke"},
@@ -204,26 +216,14 @@ def _mirrored(text: TrainingText, rng: np.random.Generator) -> TrainingText:
 
 
 def _mirrored_command(command: Command) -> Command:
-    return Command(tuple(_mirrored_clause(each) for each in command.clauses))
+    return Command(tuple(map(_swapped, command.clauses)))
 
 
-def _mirrored_clause(clause: Clause) -> Clause:
-    if isinstance(clause, Turn):
-        return replace(clause, turning=Turning(_SWAPPED.get(clause.turning, clause.turning)))
-    for name in field_names(type(clause)):
-        value = getattr(clause, name)
-        if isinstance(value, Side):
-            return _with(clause, name, Side(_SWAPPED[value]))
-        if isinstance(value, DoorReference) and value.side is not None:
-            side = Side(_SWAPPED.get(value.side, value.side))
-            return _with(clause, name, replace(value, side=side))
-    return clause
-
-
-def _with(clause: Any, name: str, value: object) -> Clause:
-    """A clause with another value of a field."""
-    changed: Clause = replace(clause, **{name: value})
-    return changed
+def _swapped(value: Any) -> Any:
+    """A clause or a part of one with left for right."""
+    if isinstance(value, Side | Turning):
+        return type(value)(_SWAPPED.get(value, value))
+    return _changed(value, _swapped)
 
 
 CHANGES: tuple[tuple[float, Callable[[TrainingText, np.random.Generator], TrainingText]], ...] = (

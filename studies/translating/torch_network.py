@@ -7,7 +7,7 @@ from torch import Tensor
 from torch.nn import functional
 
 from semnav_agents.networks.torch_network import TorchNetwork
-from semnav_agents.translating.network import TranslatorShape, positions
+from semnav_env.language.translating.network import TranslatorShape, positions
 
 LONGEST_TEXT = 320
 """The most words of a text, and symbols of a command, that have a position."""
@@ -26,6 +26,9 @@ class TorchTranslator(TorchNetwork):
         grams: Tensor,
         shares: Tensor,
         words: Tensor,
+        kinds: Tensor,
+        portions: Tensor,
+        classed: Tensor,
         seen: Tensor,
         marks: Tensor,
         mask: Tensor,
@@ -37,15 +40,17 @@ class TorchTranslator(TorchNetwork):
             grams: rows of the table of each of u different words, shape (u, g).
             shares: weight of each of them, 0 for none, shape (u, g).
             words: which of the u words, shape (b, n).
+            kinds: rows of the table of each of v different sets of classes, shape (v, c).
+            portions: weight of each of them, 0 for none, shape (v, c).
+            classed: which of the v sets, shape (b, n).
             seen: 1 for words that are seen, 0 for those of which only the mark is, shape (b, n).
             marks: shape (b, n).
             mask: which words there are, shape (b, n).
             said: symbols so far, shape (b, s).
         """
-        spelt = functional.embedding_bag(
-            grams, self.of("grams"), per_sample_weights=shares, mode="sum"
-        )
-        x = functional.embedding(words, spelt) * seen[..., None]
+        spelt = functional.embedding(words, self._bagged("grams", grams, shares))
+        x = spelt * seen[..., None]
+        x = x + functional.embedding(classed, self._bagged("classes", kinds, portions))
         x = self._drop(x + self.of("marks")[marks] + self.places[: words.shape[1]])
         for k in range(self.shape.layers):
             x = x + self._attend(f"encode.{k}.self", x, None, mask)
@@ -57,6 +62,10 @@ class TorchTranslator(TorchNetwork):
             y = y + self._attend(f"decode.{k}.cross", y, encoded, mask)
             y = y + self._feed(f"decode.{k}.feed", y)
         return self.linear("say", self.norm("decoded", y))
+
+    def _bagged(self, name: str, rows: Tensor, shares: Tensor) -> Tensor:
+        """Weighted sums of rows of a table."""
+        return functional.embedding_bag(rows, self.of(name), per_sample_weights=shares, mode="sum")
 
     def _attend(self, name: str, x: Tensor, other: Tensor | None, mask: Tensor | None) -> Tensor:
         heads = self.shape.heads
@@ -84,5 +93,5 @@ class TorchTranslator(TorchNetwork):
 
 def _normal(name: str, shape: tuple[int, ...], generator: torch.Generator) -> Tensor:
     """Small weights, normal; of tables, those of the size of a normalised row."""
-    scale = 1.0 if name in ("grams", "marks", "symbols") else shape[1] ** -0.5
+    scale = 1.0 if name in ("grams", "classes", "marks", "symbols") else shape[1] ** -0.5
     return torch.empty(shape).normal_(0.0, scale, generator=generator)

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import torch
 from torch.nn import functional
 
-from semnav_agents.translating.masking import NO_MARK, masked
-from semnav_agents.translating.network import (
+from semnav_env.language.errors import CommandError
+from semnav_env.language.translating.masking import NO_MARK, masked
+from semnav_env.language.translating.network import (
     MAX_SYMBOLS,
     TranslatorNetwork,
     TranslatorShape,
     grams_of,
+    rows_of_classes,
 )
-from semnav_agents.translating.programs import (
+from semnav_env.language.translating.programs import (
     END,
     REFUSE,
     START,
@@ -26,7 +29,6 @@ from semnav_agents.translating.programs import (
     UnsayableError,
     symbols_of,
 )
-from semnav_env.language.errors import CommandError
 from semnav_features.checked_fields import Count, check_fields
 from studies.translating.texts import TrainingText
 from studies.translating.torch_network import TorchTranslator
@@ -47,14 +49,14 @@ class TranslatorTraining:
         shape: of the network.
     """
 
-    steps: Count = 6000
+    steps: Count = 12000
     batch: Count = 32
     rate: float = 1.5e-3
     warm_up: Count = 300
-    dropout: float = 0.1
-    word_dropout: float = 0.08
+    dropout: float = 0.15
+    word_dropout: float = 0.12
     value_dropout: float = 0.6
-    shape: TranslatorShape = field(default_factory=TranslatorShape)
+    shape: TranslatorShape = field(default_factory=lambda: TranslatorShape(width=96, hidden=192))
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -72,10 +74,11 @@ class EncodedText:
 
     words: tuple[str, ...]
     marks: tuple[int, ...]
+    classes: tuple[tuple[int, ...], ...]
     symbols: tuple[int, ...]
 
 
-def encoded(text: TrainingText) -> EncodedText | None:
+def encoded(text: TrainingText, shape: TranslatorShape) -> EncodedText | None:
     """A text as numbers; None if what it means cannot be said."""
     try:
         plain = masked(text.text, text.rooms)
@@ -84,7 +87,10 @@ def encoded(text: TrainingText) -> EncodedText | None:
         return None
     if len(said) >= MAX_SYMBOLS or not plain.words:
         return None
-    return EncodedText(plain.words, plain.marks, tuple(map(SYMBOLS.index, (START, *said, END))))
+    rows = tuple(rows_of_classes(names, shape.classes) for names in plain.classes)
+    return EncodedText(
+        plain.words, plain.marks, rows, tuple(map(SYMBOLS.index, (START, *said, END)))
+    )
 
 
 def trained(
@@ -97,7 +103,7 @@ def trained(
         settings: of the training.
         seed: of the weights and of what is drawn.
     """
-    known = [each for t in texts if (each := encoded(t)) is not None]
+    known = [each for t in texts if (each := encoded(t, settings.shape)) is not None]
     torch.set_num_threads(1)  # a small network is slower with more, and its sums may differ
     torch.manual_seed(seed)
     model = TorchTranslator(settings.shape, seed, settings.dropout)
@@ -150,20 +156,40 @@ def _tensors(
     texts: Sequence[EncodedText], settings: TranslatorTraining, rng: np.random.Generator
 ) -> tuple[torch.Tensor, ...]:
     b, n = len(texts), max(len(each.marks) for each in texts)
-    different = {word: k for k, word in enumerate(sorted({w for t in texts for w in t.words}))}
-    rows = [grams_of(word, settings.shape.buckets) for word in different]
-    grams = np.zeros((len(rows), max(map(len, rows))), np.int64)
-    shares = np.zeros(grams.shape, np.float32)
-    for k, row in enumerate(rows):
-        grams[k, : len(row)] = row
-        shares[k, : len(row)] = 1.0 / len(row)
-    words, marks = np.zeros((b, n), np.int64), np.zeros((b, n), np.int64)
+    shape = settings.shape
+    grams, words = _bags(
+        [[(w, grams_of(w, shape.buckets)) for w in each.words] for each in texts], n
+    )
+    kinds, classed = _bags([[(row, row) for row in each.classes] for each in texts], n)
+    marks = np.zeros((b, n), np.int64)
     said = np.full((b, max(len(each.symbols) for each in texts)), -1)
     for i, each in enumerate(texts):
-        words[i, : len(each.words)] = [different[word] for word in each.words]
         marks[i, : len(each.marks)] = each.marks
         said[i, : len(each.symbols)] = each.symbols
     limits = np.where(marks == NO_MARK, settings.word_dropout, settings.value_dropout)
     seen = (rng.random(marks.shape) >= limits).astype(np.float32)
     mask = np.arange(n) < np.array([len(each.marks) for each in texts])[:, None]
-    return tuple(map(torch.from_numpy, (grams, shares, words, seen, marks, mask, said)))
+    arrays = (*grams, words, *kinds, classed, seen, marks, mask, said)
+    return tuple(map(torch.from_numpy, arrays))
+
+
+def _bags(
+    texts: Sequence[Sequence[tuple[Hashable, tuple[int, ...]]]], n: int
+) -> tuple[tuple[Any, Any], Any]:
+    """The different bags of rows, with the weight of each row, and which bag each word has.
+
+    Args:
+        texts: of each word what it is, and its rows.
+        n: words of the longest text.
+    """
+    rows: dict[Hashable, tuple[int, ...]] = {key: bag for each in texts for key, bag in each}
+    places = {key: k for k, key in enumerate(rows)}
+    table = np.zeros((len(rows), max(map(len, rows.values()))), np.int64)
+    shares = np.zeros(table.shape, np.float32)
+    for k, bag in enumerate(rows.values()):
+        table[k, : len(bag)] = bag
+        shares[k, : len(bag)] = 1.0 / len(bag)
+    which = np.zeros((len(texts), n), np.int64)
+    for i, each in enumerate(texts):
+        which[i, : len(each)] = [places[key] for key, _ in each]
+    return (table, shares), which

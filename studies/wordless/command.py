@@ -11,8 +11,8 @@ import torch
 
 from semnav_agents.evaluation import run_suite
 from semnav_agents.evaluation.provenance import provenance
-from semnav_agents.networks.card import CARD_FILE
 from semnav_env.judge.episodes import evenly, load_episodes
+from semnav_env.networks.card import CARD_FILE
 from semnav_scripts.jsonl import JsonLines
 from studies.wordless.wordless import WordlessAgent, train
 

@@ -22,12 +22,12 @@ from semnav_agents.hearing.collecting import Collector, GroundedGoal, Samples, S
 from semnav_agents.hearing.learning import Learner
 from semnav_agents.hearing.network import NetworkShape
 from semnav_agents.hearing.torch_network import TorchGrounding
-from semnav_agents.networks.card import Card
-from semnav_agents.networks.weights import save_weights
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import Episode
 from semnav_env.language import encode, parse
 from semnav_env.mind.observations import EntryObservation, Moment
+from semnav_env.networks.card import Card
+from semnav_env.networks.weights import save_weights
 
 BATCH_SIZE, FIRST_RATE, LAST_RATE = 256, 1.5e-3, 3e-5
 """Samples in a gradient step, and the step size at the beginning and the end."""

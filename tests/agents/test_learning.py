@@ -14,10 +14,11 @@ from semnav_agents.learning.actions import for_body, from_body
 from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
 from semnav_agents.learning.policy import Policy, PolicySettings
 from semnav_agents.learning.presets import PRESETS
-from semnav_agents.networks.card import BUNDLED_FOLDER, CARD_FILE, Card
-from semnav_agents.networks.weights import WEIGHTS_FILE, load_weights, save_weights
+from semnav_agents.networks.bundled import BUNDLED_FOLDER
 from semnav_env.env import SemNavEnv
 from semnav_env.mind.observations import GOAL
+from semnav_env.networks.card import CARD_FILE, Card
+from semnav_env.networks.weights import WEIGHTS_FILE, load_weights, save_weights
 from semnav_env.robots import ROBOTS
 from tests.golden import drive
 from tests.support.compact_observations import LIDAR, compact, observation

@@ -24,7 +24,7 @@ from semnav_agents.learning.presets import PRESETS, PPOSettings  # noqa: E402
 from semnav_agents.learning.rllib.options import RayOptions  # noqa: E402
 from semnav_agents.learning.rllib.start import start_training  # noqa: E402
 from semnav_agents.learning.rllib.weights import RLLIB_FILE  # noqa: E402
-from semnav_agents.networks.weights import load_tensors  # noqa: E402
+from semnav_env.networks.weights import load_tensors  # noqa: E402
 
 TINY = replace(
     PRESETS["hallway"],

@@ -20,7 +20,7 @@ from semnav_agents.learning.rllib.weights import (
     policy_from,
 )
 from semnav_agents.learning.training import LOGGED_KEYS
-from semnav_agents.networks.card import CARD_FILE
+from semnav_env.networks.card import CARD_FILE
 from semnav_env.robots import robot_spec
 from semnav_env.vector import SemNavVectorEnv
 from semnav_scripts import main as cli

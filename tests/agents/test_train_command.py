@@ -18,8 +18,8 @@ from semnav_agents.learning.files import TRAINING_FILE
 from semnav_agents.learning.policy import PolicySettings
 from semnav_agents.learning.presets import PRESETS
 from semnav_agents.learning.training import Trainer
-from semnav_agents.networks.card import CARD_FILE, Card
-from semnav_agents.networks.weights import WEIGHTS_FILE, load_tensors
+from semnav_env.networks.card import CARD_FILE, Card
+from semnav_env.networks.weights import WEIGHTS_FILE, load_tensors
 from semnav_features.sole_writer import sole_writer
 from semnav_scripts import main as cli
 from tests.support.paths import ROOT

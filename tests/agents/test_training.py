@@ -26,13 +26,13 @@ from semnav_agents.learning.imitation import load_demonstrations  # noqa: E402
 from semnav_agents.learning.policy import PolicySettings  # noqa: E402
 from semnav_agents.learning.presets import PRESETS  # noqa: E402
 from semnav_agents.learning.training import Trainer  # noqa: E402
-from semnav_agents.networks.card import CARD_FILE, Card  # noqa: E402
-from semnav_agents.networks.weights import (  # noqa: E402
+from semnav_env.judge.metrics import spl  # noqa: E402
+from semnav_env.networks.card import CARD_FILE, Card  # noqa: E402
+from semnav_env.networks.weights import (  # noqa: E402
     WEIGHTS_FILE,
     load_tensors,
     save_tensors,
 )
-from semnav_env.judge.metrics import spl  # noqa: E402
 from tests.support.paths import ROOT  # noqa: E402
 from tests.support.tiny_training import (  # noqa: E402
     LONG,

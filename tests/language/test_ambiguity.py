@@ -10,7 +10,7 @@ from semnav_env.language import (
     AmbiguousCommandError,
     Command,
     CommandError,
-    parse,
+    read,
     readings,
 )
 from semnav_env.language.languages import languages
@@ -39,7 +39,7 @@ TEXTS = [(code, text) for code, texts in AMBIGUOUS.items() for text in texts]
 
 def error_of(text: str, code: str = "en") -> AmbiguousCommandError:
     with pytest.raises(AmbiguousCommandError) as caught:
-        parse(text, code)
+        read(text, code)
     return caught.value
 
 
@@ -49,7 +49,7 @@ def test_every_reading_can_be_said_so_that_it_is_the_only_one(code: str, text: s
     assert len(error.readings) >= 2
     assert error.readings == readings(text, code)
     for reading in error.readings:
-        assert parse(reading.say(code), code) == reading
+        assert read(reading.say(code), code) == reading
 
 
 @pytest.mark.parametrize(("code", "text"), TEXTS)
@@ -58,7 +58,7 @@ def test_what_tells_the_readings_apart_is_said(code: str, text: str) -> None:
     assert len(set(error.differences)) == len(error.readings)
     for difference, reading in zip(error.differences, error.readings, strict=True):
         assert f'{difference}"' in str(error)
-        assert len(parse(difference, code).clauses) <= len(reading.clauses)
+        assert len(read(difference, code).clauses) <= len(reading.clauses)
 
 
 def test_the_clauses_that_all_readings_share_are_left_out() -> None:
@@ -70,8 +70,8 @@ def test_the_clauses_that_all_readings_share_are_left_out() -> None:
 
 def test_a_bare_side_is_a_turn_unless_it_can_be_that_of_a_door() -> None:
     turns = "left, right, left, right, left, right, left, right"
-    assert str(parse(turns)).count("turn") == 8
-    assert str(parse("take the second door and left")) == "go through the second door and turn left"
+    assert str(read(turns)).count("turn") == 8
+    assert str(read("take the second door and left")) == "go through the second door and turn left"
     assert len(readings("take the second door on the right, left")) == 1
     assert len(readings("take the second door, left")) == 2
 
@@ -79,7 +79,7 @@ def test_a_bare_side_is_a_turn_unless_it_can_be_that_of_a_door() -> None:
 def test_from_there_counting_begins_anew() -> None:
     anew = "go past the first door and from there go through the second door"
     assert len(readings(anew)) == 1
-    assert parse(anew) in readings("go past the first door and go through the second door")
+    assert read(anew) in readings("go past the first door and go through the second door")
 
 
 @pytest.mark.parametrize("code", sorted(languages()))
@@ -106,7 +106,7 @@ def test_any_heap_of_ambiguous_clauses_is_answered(clauses: list[str]) -> None:
 def test_going_in_needs_a_door_that_was_spoken_of() -> None:
     for text in ("go in", "turn left and go in", "go past the first door and go in"):
         with pytest.raises(CommandError, match="into what"):
-            parse(text)
+            read(text)
 
 
 def test_the_error_survives_pickling() -> None:
@@ -130,11 +130,11 @@ def test_the_error_survives_pickling() -> None:
 )
 def test_negation_contradiction_choice_and_condition_are_refused(text: str) -> None:
     with pytest.raises(CommandError):
-        parse(text)
+        read(text)
 
 
 def test_a_question_about_a_condition_names_whole_commands() -> None:
     text = "Go to the meeting room. If its door is open, enter, and if not, wait there."
     with pytest.raises(AmbiguousCommandError) as error:
-        parse(text, rooms=("meeting room",))
+        read(text, rooms=("meeting room",))
     assert error.value.differences == tuple(str(each) for each in error.value.readings)

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.language import Command, CommandError, parse
+from semnav_env.language import Command, CommandError, read
 from semnav_env.language.languages import english
 from semnav_env.language.normalise import MAX_CHARACTERS, MAX_WORDS
 from semnav_env.language.suggest import nearest
@@ -16,7 +16,7 @@ from tests.support.command_strategies import commands, without_rooms
 
 def error_of(text: object) -> CommandError:
     with pytest.raises(CommandError) as caught:
-        parse(text)  # type: ignore[arg-type]
+        read(text)  # type: ignore[arg-type]
     return caught.value
 
 
@@ -163,12 +163,12 @@ def test_errors_survive_pickling() -> None:
 
 def understood_or_refused(text: str) -> None:
     try:
-        command = parse(text)
+        command = read(text)
     except CommandError as error:
         message = str(error)
     else:
         message = str(command)
-        assert parse(message) == command
+        assert read(message) == command
     assert message
     assert len(message) < MAX_CHARACTERS
     message.encode("utf-8")
@@ -208,7 +208,7 @@ def test_one_lost_letter_never_turns_left_into_right(command: Command, data: st.
     at = data.draw(st.integers(0, len(text) - 1))
     assume(text[at].isalpha())  # a lost digit makes another number
     try:
-        slipped = parse(text[:at] + text[at + 1 :])
+        slipped = read(text[:at] + text[at + 1 :])
     except CommandError:
         return
-    assert slipped == command or slipped == parse("stop") == Command(command.clauses[:1])
+    assert slipped == command or slipped == read("stop") == Command(command.clauses[:1])

@@ -33,7 +33,7 @@ from semnav_env.language import (
     decode,
     encode,
     from_program,
-    parse,
+    read,
     sample_clause,
     sample_command,
     to_program,
@@ -45,12 +45,12 @@ from tests.support.command_strategies import clauses, commands
 @given(commands, st.sampled_from(sorted(languages())))
 @settings(max_examples=300)
 def test_saying_and_parsing_a_command_gives_it_back(command: Command, language: str) -> None:
-    assert parse(command.say(language), language) == command
+    assert read(command.say(language), language) == command
 
 
 @given(clauses)
 def test_each_clause_says_itself(clause: Clause) -> None:
-    assert parse(str(clause)).clauses == (clause,)
+    assert read(str(clause)).clauses == (clause,)
 
 
 @given(commands, commands)
@@ -115,7 +115,7 @@ def test_places_have_no_other_and_the_end_is_one() -> None:
 def test_sampled_commands_keep_their_limits(seed: int, most: int, highest: int) -> None:
     command = sample_command(np.random.default_rng(seed), most, highest)
     assert 1 <= len(command.clauses) <= most
-    assert parse(str(command)) == command
+    assert read(str(command)) == command
     assert command == sample_command(np.random.default_rng(seed), most, highest)
     for clause in command.clauses:
         for part in (getattr(clause, "door", None), getattr(clause, "until", None)):
@@ -144,7 +144,7 @@ def test_sampled_commands_come_back_from_their_words(language: str, count: int) 
     rng = np.random.default_rng(7)
     for _ in range(count):
         command = sample_command(rng)
-        assert parse(command.say(language), language) == command
+        assert read(command.say(language), language) == command
 
 
 @pytest.mark.parametrize("count", [500, pytest.param(100_000, marks=pytest.mark.slow)])

@@ -8,7 +8,7 @@ import csv
 
 import pytest
 
-from semnav_env.language import Command, CommandError, parse, readings
+from semnav_env.language import Command, CommandError, read, readings
 from tests.support.paths import TESTS
 
 FOLDER = TESTS / "corpus"
@@ -22,8 +22,7 @@ def rows(name: str) -> list[tuple[str, frozenset[Command]]]:
         table = list(csv.DictReader(file, delimiter=";"))
     programs = [row["program"].split(" / ") if row["program"] else [] for row in table]
     return [
-        (row["text"], frozenset(map(parse, each)))
-        for row, each in zip(table, programs, strict=True)
+        (row["text"], frozenset(map(read, each))) for row, each in zip(table, programs, strict=True)
     ]
 
 

@@ -7,13 +7,6 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from semnav_agents.translating.masking import masked
-from semnav_agents.translating.programs import (
-    SYMBOLS,
-    UnsayableError,
-    command_of,
-    symbols_of,
-)
 from semnav_env.language import (
     Clause,
     Command,
@@ -43,6 +36,13 @@ from semnav_env.language.declarations import (
 )
 from semnav_env.language.languages import languages
 from semnav_env.language.references import RoomReference
+from semnav_env.language.translating.masking import masked
+from semnav_env.language.translating.programs import (
+    SYMBOLS,
+    UnsayableError,
+    command_of,
+    symbols_of,
+)
 
 
 @dataclass(frozen=True, slots=True)

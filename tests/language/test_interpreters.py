@@ -18,7 +18,7 @@ from semnav_env.language import (
     ModelInterpreter,
     Side,
     from_program,
-    parse,
+    read,
     to_program,
 )
 from semnav_env.mind.grounding import GroundingError, PassGoal
@@ -97,7 +97,7 @@ def test_any_answer_is_a_program_or_refused(answer: object) -> None:
         understood = stub(answer).interpret(TEXT)
     except CommandError:
         return
-    assert parse(understood.echo) == understood.command
+    assert read(understood.echo) == understood.command
 
 
 def test_a_model_is_not_asked_about_texts_that_hide_something() -> None:
@@ -122,7 +122,7 @@ def test_what_a_model_says_is_resolved_like_every_other_command() -> None:
     (goal,) = plan_goals(plan, second, start)
     assert isinstance(goal, PassGoal)
     assert goal.door.name == "west_south_2"
-    ninth = stub(to_program(parse("take the ninth door on the right"))).interpret(TEXT).command
+    ninth = stub(to_program(read("take the ninth door on the right"))).interpret(TEXT).command
     with pytest.raises(GroundingError, match="no ninth door on the right: the hallway ended after"):
         plan_goals(plan, ninth, start)
 

@@ -4,7 +4,7 @@ import pytest
 
 from semnav_env.judge.episodes import load_episodes
 from semnav_env.judge.tasks.request import EpisodeRequest
-from semnav_env.language import AmbiguousCommandError, CommandError, parse, readings
+from semnav_env.language import AmbiguousCommandError, CommandError, read, readings
 from semnav_scripts.ground import understood
 
 ROOMS = ("lab", "office", "kitchen")
@@ -24,26 +24,26 @@ ROOMS = ("lab", "office", "kitchen")
     ],
 )
 def test_driving_backwards_by_a_distance_is_never_done_forwards(text: str) -> None:
-    assert str(parse(text, None, ROOMS)).startswith("back up for ")
+    assert str(read(text, None, ROOMS)).startswith("back up for ")
 
 
 def test_to_reverse_alone_or_before_going_on_is_to_turn_around() -> None:
-    assert str(parse("reverse")) == "turn around"
+    assert str(read("reverse")) == "turn around"
     turned = "turn around and go down the hallway for 2 metres"
-    assert str(parse("reverse, then go two metres")) == turned
-    assert str(parse("reverse two metres")) == "back up for 2 metres"
+    assert str(read("reverse, then go two metres")) == turned
+    assert str(read("reverse two metres")) == "back up for 2 metres"
 
 
 def test_doors_that_are_passed_on_both_sides_may_be_counted_on_one() -> None:
     with pytest.raises(AmbiguousCommandError) as caught:
-        parse("pass two doors and then enter the third one on your left")
+        read("pass two doors and then enter the third one on your left")
     assert [str(command) for command in caught.value.readings] == [
         "go down the hallway past the second door and go through the first door on the left",
         "go down the hallway past the second door on the left "
         "and go through the first door on the left",
     ]
     for plain in ("pass two doors and take the next on the left", "pass two doors, take the third"):
-        parse(plain)
+        read(plain)
 
 
 @pytest.mark.parametrize(
@@ -51,16 +51,16 @@ def test_doors_that_are_passed_on_both_sides_may_be_counted_on_one() -> None:
     [("Fahr ins Büro", "office"), ("Geh ins Labor", "lab"), ("Fahr in die Küche", "kitchen")],
 )
 def test_a_room_is_known_by_its_kind_in_both_languages(text: str, room: str) -> None:
-    assert str(parse(text, None, ROOMS)) == f'go to room "{room}"'
-    assert parse(text, "de", ROOMS) == parse(f"go to the {room}", "en", ROOMS)
+    assert str(read(text, None, ROOMS)) == f'go to room "{room}"'
+    assert read(text, "de", ROOMS) == read(f"go to the {room}", "en", ROOMS)
 
 
 @pytest.mark.parametrize("text", ["Fahr ins Büro", "go to the office"])
 def test_a_kind_of_room_that_several_rooms_have_is_no_door(text: str) -> None:
     with pytest.raises(CommandError, match="there are: office 1, office 2"):
-        parse(text, None, ("office 1", "office 2"))
-    assert str(parse("fahr ins Büro 2", None, ("office 1", "office 2"))) == 'go to room "office 2"'
-    counted = parse("take the second office on the left", None, ROOMS)
+        read(text, None, ("office 1", "office 2"))
+    assert str(read("fahr ins Büro 2", None, ("office 1", "office 2"))) == 'go to room "office 2"'
+    counted = read("take the second office on the left", None, ROOMS)
     assert str(counted) == "go through the second door on the left"
 
 
@@ -78,7 +78,7 @@ def test_the_carets_are_under_a_room_that_there_is_not(
     text: str, rooms: tuple[str, ...], wrong: str
 ) -> None:
     with pytest.raises(CommandError) as caught:
-        parse(text, None, rooms)
+        read(text, None, rooms)
     error = caught.value
     assert error.position == text.index(wrong)
     assert error.length == len(wrong)
@@ -101,7 +101,7 @@ def test_the_carets_are_under_a_room_that_there_is_not(
 )
 def test_an_error_says_what_would_be_right(text: str, says: str) -> None:
     with pytest.raises(CommandError) as caught:
-        parse(text, None, ROOMS)
+        read(text, None, ROOMS)
     assert says in str(caught.value)
 
 
@@ -117,7 +117,7 @@ def test_an_error_says_what_would_be_right(text: str, says: str) -> None:
 )
 def test_rooms_are_listed_only_where_one_may_be_meant(text: str) -> None:
     with pytest.raises(CommandError) as caught:
-        parse(text, None, ROOMS)
+        read(text, None, ROOMS)
     assert "rooms" not in str(caught.value)
 
 
@@ -125,11 +125,11 @@ def test_rooms_are_listed_only_where_one_may_be_meant(text: str) -> None:
     "text", ["Such das Haus ab", "Suche im ganzen Haus", "bitte das ganze Haus absuchen"]
 )
 def test_a_house_is_searched_in_german_words(text: str) -> None:
-    assert str(parse(text)) == "search the house"
+    assert str(read(text)) == "search the house"
 
 
 def test_the_language_of_a_text_is_recognised_everywhere() -> None:
-    around = parse("turn around")
+    around = read("turn around")
     assert EpisodeRequest("dreh dich um").checked_command(()) == around
     assert understood("dreh dich um") == around
     with pytest.raises(CommandError, match="this is German"):
@@ -149,7 +149,7 @@ def test_the_language_of_a_text_is_recognised_everywhere() -> None:
 )
 def test_and_then_parts_two_clauses_behind_a_verb_that_says_where_to(text: str, meant: str) -> None:
     """Behind a bare "go" it says nothing; "then" alone may stand inside a clause."""
-    command = parse(text)
+    command = read(text)
     assert meant in f"{command.say('en')} {command.say('de')}"
     assert len(command.clauses) == 1 + (not text.startswith("go and"))
 
@@ -177,7 +177,7 @@ def test_frozen_texts_with_and_then_are_read_as_their_programs(name: str) -> Non
 )
 def test_how_long_to_drive_is_never_taken_for_a_wait(text: str) -> None:
     with pytest.raises(CommandError) as caught:
-        parse(text)
+        read(text)
     assert not isinstance(caught.value, AmbiguousCommandError)
 
 
@@ -192,4 +192,4 @@ def test_how_long_to_drive_is_never_taken_for_a_wait(text: str) -> None:
     ],
 )
 def test_a_time_that_says_how_long_to_stand_is_a_wait(text: str, meant: str) -> None:
-    assert str(parse(text)) == meant
+    assert str(read(text)) == meant

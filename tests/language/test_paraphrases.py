@@ -15,14 +15,14 @@ from semnav_env.language import (
     Distance,
     SearchHouse,
     paraphrases,
-    parse,
+    read,
     sample_command,
 )
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
 
 LANGUAGES = ("en", "de")
-OFFICE = parse(
+OFFICE = read(
     "turn left at the second intersection, go down the hallway past the first door on the left "
     "and go through the third door on the right"
 )
@@ -30,7 +30,7 @@ OFFICE = parse(
 
 def understood(text: str, command: Command, language: Language) -> bool:
     try:
-        return parse(text, language) == command
+        return read(text, language) == command
     except CommandError:
         return False
 
@@ -40,7 +40,7 @@ def test_paraphrases_are_different_texts_of_the_same_command(language: str) -> N
     texts = paraphrases(OFFICE, np.random.default_rng(1), 50, language)
     assert len(set(texts)) == 50
     assert OFFICE.say(language) not in texts
-    assert {parse(text, language) for text in texts} == {OFFICE}
+    assert {read(text, language) for text in texts} == {OFFICE}
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -49,7 +49,7 @@ def test_every_kind_of_command_can_be_said_otherwise(language: str) -> None:
     for _ in range(200):
         command = sample_command(rng, max_clauses=3)
         (text,) = paraphrases(command, rng, 1, language)
-        assert parse(text, language) == command
+        assert read(text, language) == command
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
@@ -71,15 +71,15 @@ def test_every_wording_of_a_language_is_understood_somewhere(language: str) -> N
 
 def test_readings_can_be_imported_after_parsing() -> None:
     """A module of that name would take the function's place when it is first needed."""
-    parse("stop")
+    read("stop")
     from semnav_env.language import readings
 
-    assert readings("stop") == (parse("stop"),)
+    assert readings("stop") == (read("stop"),)
 
 
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_a_sign_and_a_verb_set_off_what_depends_on_a_condition(language: str) -> None:
-    command = parse("if you see the first door, turn left at the first corner")
+    command = read("if you see the first door, turn left at the first corner")
     unclear = {
         "en": r" and then |[,;.] (then )?left at",
         "de": r" und dann |[,;.] (dann )?(an|bei) der \w+ \w+ links([.,]|$)",
@@ -94,7 +94,7 @@ def test_the_same_generator_says_the_same() -> None:
 
 
 def test_what_can_be_said_in_few_ways_gives_few_texts() -> None:
-    texts = paraphrases(parse("stop"), np.random.default_rng(5), 500)
+    texts = paraphrases(read("stop"), np.random.default_rng(5), 500)
     assert 5 < len(texts) < 500
 
 

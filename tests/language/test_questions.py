@@ -13,12 +13,12 @@ from semnav_env.language import (
     GoToDoor,
     Question,
     Stop,
-    parse,
+    read,
     sample_command,
 )
 from semnav_env.language.languages import languages
 from semnav_env.language.question import MOST_QUESTIONS, ask_until_clear
-from semnav_env.language.references import DoorReference, Side
+from semnav_env.language.references import ENTRY, DoorReference, Side
 
 QUESTIONS = [
     ("turn 90 degrees", "Left, or right?"),
@@ -33,12 +33,12 @@ QUESTIONS = [
 
 def question(text: str, rooms: tuple[str, ...] = ("kitchen", "Küche")) -> Question:
     with pytest.raises(AmbiguousCommandError) as caught:
-        parse(text, None, rooms)
+        read(text, None, rooms)
     return caught.value.question
 
 
 def of_readings(language: str, *texts: str) -> Question:
-    return Question(tuple(map(parse, texts)), languages()[language], parse)
+    return Question(tuple(map(read, texts)), languages()[language], read)
 
 
 @pytest.mark.parametrize(("text", "asked"), QUESTIONS)
@@ -84,7 +84,7 @@ def test_a_short_answer_settles_it(
     assert question.text == asked
     for number, texts in answers.items():
         for text in texts:
-            assert question.answer(text) == parse(readings[number]), text
+            assert question.answer(text) == read(readings[number]), text
 
 
 @pytest.mark.parametrize(
@@ -106,12 +106,12 @@ LONG = (
 def test_of_two_long_choices_only_the_likelier_is_named_and_then_the_other() -> None:
     question = of_readings("en", *LONG)
     assert question.text == "Through the second door on the left and left at the third corner?"
-    assert question.answer("yes") == parse(LONG[0])
-    assert question.answer("the right one") == parse(LONG[1])
+    assert question.answer("yes") == read(LONG[0])
+    assert question.answer("the right one") == read(LONG[1])
     with pytest.raises(AmbiguousCommandError) as again:
         question.answer("no")
-    assert again.value.readings == (parse(LONG[1]),)
-    assert again.value.question.answer("yes") == parse(LONG[1])
+    assert again.value.readings == (read(LONG[1]),)
+    assert again.value.question.answer("yes") == read(LONG[1])
 
 
 def test_no_to_the_only_reading_is_no_command() -> None:
@@ -135,7 +135,7 @@ def test_stop_is_an_answer_to_every_question(text: str) -> None:
     ],
 )
 def test_a_whole_command_is_an_answer(text: str, meant: str) -> None:
-    assert of_readings("en", *BACK).answer(text) == parse(meant)
+    assert of_readings("en", *BACK).answer(text) == read(meant)
 
 
 @given(st.randoms(use_true_random=False), st.sampled_from(sorted(languages())))
@@ -146,7 +146,7 @@ def test_a_choice_in_its_own_words_is_always_that_choice(random, language: str) 
     first, second = sample_command(rng), sample_command(rng)
     if first == second:
         return
-    question = Question((first, second), languages()[language], parse)
+    question = Question((first, second), languages()[language], read)
     for command in (first, second):
         assert question.answer(command.say(language)) == command
 
@@ -156,9 +156,16 @@ def test_a_choice_in_its_own_words_is_always_that_choice(random, language: str) 
 def test_two_doors_on_any_two_sides_are_asked_about_by_their_sides(side, language: str) -> None:
     spoken = languages()[language]
     both = tuple(Command((GoToDoor(DoorReference(1, each)),)) for each in (Side.LEFT, side))
-    asked = Question(both, spoken, parse)
+    asked = Question(both, spoken, read)
     assert spoken.say(side).split()[0] in asked.text.lower()
     assert asked.answer(spoken.say(side)) == both[1]
+
+
+def test_the_door_one_came_in_by_is_asked_about_by_its_name() -> None:
+    both = tuple(Command((GoToDoor(DoorReference(n)),)) for n in (2, ENTRY))
+    asked = Question(both, languages()["en"], read)
+    assert "the door you came in by" in asked.text
+    assert asked.answer("the door you came in by") == both[1]
 
 
 def test_parse_asks_until_it_is_clear() -> None:
@@ -168,7 +175,7 @@ def test_parse_asks_until_it_is_clear() -> None:
         asked.append(text)
         return next(answers)
 
-    assert parse("turn 90 degrees", ask=ask) == parse("turn right by 90 degrees")
+    assert read("turn 90 degrees", ask=ask) == read("turn right by 90 degrees")
     assert asked == ["Left, or right?"] * 2
 
 
@@ -180,14 +187,14 @@ def test_a_person_is_not_asked_for_ever() -> None:
         return "what?"
 
     with pytest.raises(AmbiguousCommandError):
-        parse("turn 90 degrees", ask=ask)
+        read("turn 90 degrees", ask=ask)
     assert len(asked) == MOST_QUESTIONS
 
 
 def test_a_question_survives_pickling() -> None:
     with pytest.raises(AmbiguousCommandError) as caught:
-        parse("turn 90 degrees")
+        read("turn 90 degrees")
     copy = pickle.loads(pickle.dumps(caught.value))
     assert str(copy) == str(caught.value)
-    assert copy.question.answer("left") == parse("turn left by 90 degrees")
-    assert ask_until_clear(copy, lambda _: "right") == parse("turn right by 90 degrees")
+    assert copy.question.answer("left") == read("turn left by 90 degrees")
+    assert ask_until_clear(copy, lambda _: "right") == read("turn right by 90 degrees")

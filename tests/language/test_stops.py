@@ -52,7 +52,6 @@ def test_a_call_beside_what_is_not_understood_is_a_stop(text: str) -> None:
         ("stop, then turn left", "stop and turn left"),
         ("go through the first door, stop", "go through the first door and stop"),
         ("stop at the second door on the left", "go to the second door on the left and stop"),
-        ("stop, stop, turn left", "stop, stop and turn left"),
     ],
 )
 def test_a_stop_that_is_part_of_a_route_stays_part_of_it(text: str, meant: str) -> None:

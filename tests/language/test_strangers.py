@@ -2,7 +2,7 @@
 
 import pytest
 
-from semnav_env.language import AmbiguousCommandError, CommandError, parse, readings
+from semnav_env.language import AmbiguousCommandError, CommandError, read, readings
 
 ROOMS = ("kitchen", "library", "lab", "office", "Küche", "Archiv")
 
@@ -57,7 +57,7 @@ def test_a_turn_in_any_case_depends_on_nothing(turn: str) -> None:
     text = (
         f"if you see the first door, go down the hallway until the first corner, in any case {turn}"
     )
-    assert str(parse(text)) == text
+    assert str(read(text)) == text
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def test_a_turn_in_any_case_depends_on_nothing(turn: str) -> None:
 )
 def test_a_clause_of_which_a_part_would_be_dropped_is_refused(text: str) -> None:
     with pytest.raises(CommandError) as caught:
-        parse(text, None, ROOMS)
+        read(text, None, ROOMS)
     assert not isinstance(caught.value, AmbiguousCommandError)
 
 
@@ -84,7 +84,7 @@ def test_a_clause_of_which_a_part_would_be_dropped_is_refused(text: str) -> None
 )
 def test_a_remark_is_left_out_with_a_question(text: str, meant: str) -> None:
     with pytest.raises(AmbiguousCommandError) as caught:
-        parse(text, None, ROOMS)
+        read(text, None, ROOMS)
     assert [str(command) for command in caught.value.readings] == [meant]
     assert caught.value.question.unread
 
@@ -99,4 +99,4 @@ def test_a_remark_is_left_out_with_a_question(text: str, meant: str) -> None:
     ],
 )
 def test_half_a_turn_may_have_a_side(text: str, meant: str) -> None:
-    assert str(parse(text)) == meant
+    assert str(read(text)) == meant

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from semnav_env.language import CommandError, parse, readings
+from semnav_env.language import CommandError, read, readings
 
 WAIT_THEN_TURN = (
     "go down the hallway until the first corner, wait for 5 seconds and turn left at the first "
@@ -36,21 +36,21 @@ IN_OR_STOP = "if you see the first door, go through the first door, otherwise st
     ],
 )  # fmt: skip
 def test_clauses_are_done_in_the_order_that_is_meant(text: str, meant: str) -> None:
-    assert readings(text) == (parse(meant),)
+    assert readings(text) == (read(meant),)
 
 
 @pytest.mark.parametrize("door", ["kitchen door", "Küchentür"])
 def test_a_room_is_known_by_its_door(door: str) -> None:
     closed = {"kitchen door": "if the {} is closed, stop", "Küchentür": "falls die {} zu ist, halt"}
     rooms = ("kitchen", "küche")
-    first, condition, *_ = parse(closed[door].format(door), rooms=rooms).clauses
+    first, condition, *_ = read(closed[door].format(door), rooms=rooms).clauses
     assert str(first).startswith("go to") or "in front of" in str(first)
     assert str(condition) == "if you do not see the first door"
 
 
 def test_what_would_be_done_before_is_never_dropped() -> None:
     with pytest.raises(CommandError, match="is not understood"):
-        parse("turn right at the corner after you've left the room")
+        read("turn right at the corner after you've left the room")
 
 
 @pytest.mark.parametrize("text", ["Stell dich nein, da geht's rechts.", "go in, not left"])

@@ -9,8 +9,7 @@ from collections.abc import Callable
 
 from hypothesis import strategies as st
 
-from semnav_agents.translating.interpreter import understand
-from semnav_env.language import CommandError, parse
+from semnav_env.language import CommandError, parse, read
 
 CHARACTERS = (
     *string.printable,
@@ -35,7 +34,7 @@ MOST_SECONDS = 2.0
 READERS: tuple[tuple[Callable[[str, str | None], object], str | None], ...] = (
     (parse, "en"),
     (parse, "de"),
-    (understand, None),
+    (read, None),
 )
 """What reads them, and the language that it is told."""
 

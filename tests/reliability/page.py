@@ -6,8 +6,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from semnav_agents.networks.weights import MAX_FILE_SIZE
 from semnav_env.judge.episodes.files import MAX_BYTES as MAX_EPISODES
+from semnav_env.networks.weights import MAX_FILE_SIZE
 from semnav_env.rescue.visible_floor import STANDPOINT
 from semnav_env.world.maps.cell_budget import MAX_CELLS
 from semnav_env.world.maps.geodesic import COARSEST_SPACING, GRID_SPACING, RECENT_FIELDS

@@ -14,9 +14,9 @@ from ezdxf.enums import InsertUnits
 from PIL import Image
 
 from semnav_agents.learned import LearnedAgent
-from semnav_agents.networks.weights import load_tensors, save_tensors
 from semnav_env.judge.episodes import load_episodes, write_episodes
 from semnav_env.judge.metrics import Recording
+from semnav_env.networks.weights import load_tensors, save_tensors
 from semnav_env.world.maps import load_floor_plan, save_floor_plan
 from semnav_env.world.maps.importers import Drawing, import_map
 from semnav_features.readers import Geometry, open_log

@@ -14,9 +14,9 @@ from safetensors.numpy import load
 
 from semnav_agents.evaluation.attempts import Attempt, write_attempts
 from semnav_agents.learning.files import TRAINING_FILE
-from semnav_agents.networks.card import CARD_FILE
-from semnav_agents.networks.weights import WEIGHTS_FILE
 from semnav_env.judge.episodes import SPLITS
+from semnav_env.networks.card import CARD_FILE
+from semnav_env.networks.weights import WEIGHTS_FILE
 from semnav_env.world.lidar import Lidar
 from semnav_env.world.maps import load_floor_plan, save_floor_plan
 from tests.support.drawn_maps import two_rooms, write_map

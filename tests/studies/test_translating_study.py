@@ -1,20 +1,20 @@
 """The texts from which the translator learns, and how it is measured."""
 
 import numpy as np
+import pytest
 
-from semnav_agents.networks.card import BUNDLED_FOLDER
 from semnav_env.language import parse
 from semnav_env.language.corpora import (
-    ParseOutcome,
-    judge,
     load_sentences,
 )
 from semnav_env.language.corpora.meanings import meaning_of, normal
-from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.translating.interpreter import AskingLimits
+from semnav_env.language.translating.network import TRAINED_FOLDER
 from studies.corpora import development_corpora
 from studies.translating.infeasible import infeasible
-from studies.translating.measure import interpreters, outcome_of
 from studies.translating.programs import command_of_meaning
+from studies.translating.ranker import RankedText, learned, ranked_texts, shares_of
+from studies.translating.ranker_command import outcome
 from studies.translating.synonyms import with_synonyms
 from studies.translating.texts import TrainingText, authored, disturbed, generated, joined
 
@@ -67,22 +67,39 @@ def test_the_texts_are_the_same_for_the_same_seed() -> None:
     assert all(each.commands for each in first)
 
 
-def test_the_grammar_is_judged_as_by_the_evaluation() -> None:
-    sentences = load_sentences(development_corpora()[2])
-    rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
-    grammar = interpreters(sentences, BUNDLED_FOLDER / "translator", 0.9)["grammar"]
-    for sentence in sentences[:40]:
-        assert outcome_of(sentence, grammar) == judge(sentence, rooms).outcome
+def ranked(kind: str, *candidates: tuple[float, bool]) -> RankedText:
+    found = tuple({"any": 1.0, "likeness": likeness} for likeness, _ in candidates)
+    return RankedText(kind, found, tuple(right for _, right in candidates), "english")
 
 
-def test_the_second_opinion_acts_only_where_the_grammar_does() -> None:
-    sentences = load_sentences(development_corpora()[3])[:60]
-    found = interpreters(sentences, BUNDLED_FOLDER / "translator", 0.9)
-    acts = (ParseOutcome.UNDERSTOOD, ParseOutcome.MISREAD)
-    for sentence in sentences:
-        before = outcome_of(sentence, found["grammar"])
-        after = outcome_of(sentence, found["second opinion"])
-        assert after not in acts or after is before
+def test_the_ranker_learns_what_the_right_candidates_have_in_common() -> None:
+    texts = [ranked("feasible", (0.9, True), (0.2, False)) for _ in range(30)]
+    texts += [ranked("infeasible", (0.3, False)) for _ in range(30)]
+    weights = learned(texts)
+    first, second, none = shares_of(ranked("feasible", (0.9, True), (0.2, False)), weights)
+    assert first > 0.7 > none > second
+    assert shares_of(ranked("infeasible", (0.3, False)), weights)[-1] > 0.5
+
+
+@pytest.mark.parametrize(
+    ("shares", "right", "becomes"),
+    [
+        ((0.95, 0.02, 0.03), (True, False), "done"),
+        ((0.95, 0.02, 0.03), (False, True), "misread"),
+        ((0.5, 0.3, 0.2), (False, True), "asked"),
+        ((0.5, 0.3, 0.2), (False, False), "asked wrongly"),
+        ((0.2, 0.1, 0.7), (True, False), "refused"),
+    ],
+)
+def test_what_becomes_of_a_text_follows_from_its_probabilities(shares, right, becomes) -> None:
+    text = RankedText("feasible", ({}, {}), right, "english")
+    assert outcome(text, shares, AskingLimits()) == becomes
+
+
+def test_the_ranked_text_has_the_candidates_of_the_interpreter() -> None:
+    found = list(ranked_texts(development_corpora()[2], TRAINED_FOLDER))[:20]
+    assert all(len(text.evidence) == len(text.right) for text in found)
+    assert sum(any(text.right) for text in found) >= 15
 
 
 def test_synonyms_keep_sides_and_numbers() -> None:

@@ -14,7 +14,7 @@ from semnav_agents.base import Agent, Observation
 from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.elements import Description, describe
 from semnav_agents.hearing.network import GroundingNetwork, NetworkOutput, NetworkShape
-from semnav_agents.networks.card import bundled_names, network_folder, network_kind
+from semnav_agents.networks.bundled import bundled_names, network_folder, network_kind
 from semnav_agents.scripted import ScriptedAgent
 from semnav_env.language.declarations import TokenVerb
 from semnav_env.mind.grounding import GoalKind

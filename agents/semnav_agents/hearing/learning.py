@@ -13,7 +13,7 @@ from semnav_agents.hearing.mirror import Arrays, mirrored
 from semnav_agents.hearing.network import KINDS
 from semnav_agents.hearing.torch_network import Grounded, TorchGrounding
 from semnav_agents.networks.adam import adam_moments, adam_shapes, adam_tensors
-from semnav_agents.networks.weights import check_tensors
+from semnav_env.networks.weights import check_tensors
 
 PLACE_SCALE, HEADING_SHARPNESS = 0.25, 8.0
 """Scale of the Laplace distribution of places, metres; concentration of that of headings."""

@@ -17,8 +17,8 @@ import numpy as np
 
 from semnav_agents.hearing.elements import ELEMENT_SIZE, Description
 from semnav_agents.hearing.tokens import COMMAND_SIZE
-from semnav_agents.networks.card import Card, TransformerSettings
-from semnav_agents.networks.layers import (
+from semnav_env.networks.card import Card, TransformerSettings
+from semnav_env.networks.layers import (
     Array,
     Shapes,
     attention,
@@ -30,7 +30,7 @@ from semnav_agents.networks.layers import (
     perceptron_shapes,
     softmax,
 )
-from semnav_agents.networks.weights import check_tensors, load_weights
+from semnav_env.networks.weights import check_tensors, load_weights
 from semnav_features.checked_fields import Count
 from semnav_features.frames import Pose, compose, relative
 

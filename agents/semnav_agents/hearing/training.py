@@ -25,9 +25,9 @@ from semnav_agents.hearing.mirror import Arrays
 from semnav_agents.hearing.network import GroundingNetwork, NetworkShape
 from semnav_agents.hearing.presets import HearingPreset, HearingRound
 from semnav_agents.hearing.torch_network import TorchGrounding
-from semnav_agents.networks.card import CARD_FILE, Card
-from semnav_agents.networks.weights import load_tensors, save_tensors, save_weights
 from semnav_env.judge.episodes import Episode, load_episodes
+from semnav_env.networks.card import CARD_FILE, Card
+from semnav_env.networks.weights import load_tensors, save_tensors, save_weights
 from semnav_features.writing import replacing
 
 STATE_FILE, SAMPLES = "training.safetensors", "samples"

@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING, Any
 from numpy.typing import NDArray
 
 from semnav_agents.learning.policy import Policy, PolicySettings
-from semnav_agents.networks.card import Card
-from semnav_agents.networks.weights import Tensors, load_tensors, save_weights, serialised
+from semnav_env.networks.card import Card
+from semnav_env.networks.weights import Tensors, load_tensors, save_weights, serialised
 from semnav_features.writing import replacing, write_file
 
 if TYPE_CHECKING:

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from semnav_agents.learning.actions import from_body
 from semnav_agents.learning.compact import COMPACT_ENTRIES, VELOCITY, CompactObserver
 from semnav_agents.learning.presets import Preset
-from semnav_agents.networks.weights import load_tensors, save_tensors
 from semnav_agents.scripted import ScriptedAgent
 from semnav_env.env import SemNavEnv
+from semnav_env.networks.weights import load_tensors, save_tensors
 from semnav_env.robots import robot_spec
 
 Tensors = dict[str, NDArray[np.float32]]

@@ -10,9 +10,9 @@ from typing import Annotated
 
 import numpy as np
 
-from semnav_agents.networks.card import Card, NetworkSettings
-from semnav_agents.networks.layers import Array, Shapes, linear, linear_shapes
-from semnav_agents.networks.weights import load_weights
+from semnav_env.networks.card import Card, NetworkSettings
+from semnav_env.networks.layers import Array, Shapes, linear, linear_shapes
+from semnav_env.networks.weights import load_weights
 from semnav_features.checked_fields import Bounds, Count, check_fields
 
 Width = Annotated[int, Bounds(1, 4096)]

@@ -10,7 +10,7 @@ import torch
 from numpy.typing import NDArray
 
 from semnav_agents.networks.adam import adam_moments, adam_shapes, adam_tensors
-from semnav_agents.networks.weights import Tensors, check_tensors, pop_count
+from semnav_env.networks.weights import Tensors, check_tensors, pop_count
 
 if TYPE_CHECKING:
     from stable_baselines3 import PPO

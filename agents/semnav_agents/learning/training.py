@@ -29,8 +29,8 @@ from semnav_agents.learning.preset_envs import preset_envs
 from semnav_agents.learning.presets import Preset
 from semnav_agents.learning.reports import Preparation, TrainingReport
 from semnav_agents.learning.state import read_state, write_state
-from semnav_agents.networks.card import Card
 from semnav_env.judge.metrics import spl
+from semnav_env.networks.card import Card
 
 LOGGED_KEYS = ("is_success", "collisions", "path_length", "route_length")
 """Keys of an episode's last `info` that are logged."""

@@ -1,1 +1,1 @@
-"""The networks that agents run: their layers in NumPy, and the files that hold them."""
+"""The networks of the agents: where their files lie, and what their training in torch shares."""

@@ -7,8 +7,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from semnav_agents.networks.layers import Shapes
-from semnav_agents.networks.weights import Tensors
+from semnav_env.networks.layers import Shapes
+from semnav_env.networks.weights import Tensors
 
 ADAM_MOMENTS = ("step", "exp_avg", "exp_avg_sq")
 """The number of steps, and the means of the gradient and of its square (Kingma and Ba 2015)."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from torch import Tensor, nn
 from torch.nn import functional
 
-from semnav_agents.networks.layers import EPSILON, Shapes
+from semnav_env.networks.layers import EPSILON, Shapes
 
 Draw = Callable[[str, tuple[int, ...], torch.Generator], Tensor]
 """Draws the first values of a matrix, by its name and shape."""

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.judge.episodes.fingerprint import fingerprint
-from semnav_env.language import CLAUSE_FEATURES, MAX_CLAUSES, Command, encode, parse
+from semnav_env.language import CLAUSE_FEATURES, MAX_CLAUSES, Command, encode, parse, read
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_features.frames import Point, Pose
 
@@ -120,7 +120,7 @@ class Episode:
         if self.programs:
             return self.programs
         with self.named_in_errors():
-            return tuple(parse(reading, self.language) for reading in self.readings)
+            return tuple(read(reading, self.language) for reading in self.readings)
 
     @contextmanager
     def named_in_errors(self) -> Iterator[None]:

@@ -12,11 +12,11 @@ from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.corpora.sentences import Sentence
 from semnav_env.language.errors import CommandError
-from semnav_env.language.parser import parse
+from semnav_env.language.parser import read
 from semnav_env.language.question import AmbiguousCommandError
 
 Understand: TypeAlias = Callable[[str, str | None, Sequence[str]], Command]
-"""What takes a text for a command, given a language or None and the rooms; like `parse`."""
+"""What takes a text for a command, given a language or None and the rooms; like `read`."""
 
 
 class ParseOutcome(StrEnum):
@@ -52,7 +52,7 @@ class SentenceVerdict:
 
 
 def verdicts(
-    sentences: Sequence[Sentence], language: str | None = None, understand: Understand = parse
+    sentences: Sequence[Sentence], language: str | None = None, understand: Understand = read
 ) -> Iterator[SentenceVerdict]:
     """Judge sentences; the rooms that their meanings name are those of the building.
 
@@ -69,7 +69,7 @@ def judge(
     sentence: Sentence,
     rooms: Sequence[str],
     language: str | None = None,
-    understand: Understand = parse,
+    understand: Understand = read,
 ) -> SentenceVerdict:
     """What becomes of one sentence."""
     try:

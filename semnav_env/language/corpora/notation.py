@@ -31,6 +31,9 @@ Steps: TypeAlias = tuple[Step, ...]
 NAMED_ORDINALS = ("nearest", "any", "other", "entry")
 DOOR_SIDES = ("left", "right", "ahead", "behind", "opposite")
 
+PACES = ("slow", "fast")
+"""How fast what follows is done; no clause says it yet, nor along which wall to keep."""
+
 _CONDITION = re.compile(r"if ([^:]+): ?(.*?)(?: else: ?(.*))? end")
 _BEFORE_PLACE = re.compile(r"(?:until|past|at|to|face|after|before)$")
 
@@ -103,8 +106,10 @@ def _step(text: str) -> Step:
             read_meaning(otherwise) if otherwise else (),
         )
     match text.split(" ", 1):
-        case [verb] if verb in {*_verbs(None), "cross"}:
+        case [verb] if verb in {*_verbs(None), "cross", *PACES}:
             return (verb,)
+        case ["hallway", rest] if along := re.fullmatch(r"along (left|right)(?: (.+))?", rest):
+            return ("along", along[1], *_step(f"hallway {along[2] or ''}".strip())[1:])
         case ["hallway", rest] if rest.startswith("for "):
             return ("hallway", "for", *_distance(rest[4:]))
         case ["hallway", rest] if rest.startswith(("until ", "past ")):

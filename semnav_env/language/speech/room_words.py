@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import lru_cache
+from types import MappingProxyType
 
 from semnav_env.language.rooms import (
     GERMAN_LETTERS,
@@ -13,8 +15,13 @@ from semnav_env.language.rooms import (
 from semnav_env.language.words import pieces
 
 
-def name_phrases(names: Sequence[str]) -> dict[tuple[str, ...], str]:
+def name_phrases(names: Sequence[str]) -> Mapping[tuple[str, ...], str]:
     """The plain name of each room by the words that people say for it."""
+    return _name_phrases(tuple(names))
+
+
+@lru_cache(maxsize=64)
+def _name_phrases(names: tuple[str, ...]) -> Mapping[tuple[str, ...], str]:
     found: dict[tuple[str, ...], str] = {}
     for name in names:
         folded = "".join(GERMAN_LETTERS.get(c, c) for c in name.casefold()).replace("\u2019", "'")
@@ -28,7 +35,7 @@ def name_phrases(names: Sequence[str]) -> dict[tuple[str, ...], str]:
     for words, name in tuple(found.items()):
         for other in _in_other_words(words):
             found.setdefault(other, name)
-    return found
+    return MappingProxyType(found)
 
 
 def kinds_of_rooms(names: Iterable[tuple[str, ...]]) -> frozenset[str]:

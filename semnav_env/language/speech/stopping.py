@@ -18,6 +18,7 @@ from semnav_env.language.clauses import (
     GoToDoor,
     GoToRoom,
     Stop,
+    waits_of,
 )
 from semnav_env.language.command import MAX_CLAUSES
 from semnav_env.language.references import (
@@ -63,10 +64,7 @@ def read_wait(frame: ClauseFrame) -> Readings | None:
     if frame.has(ItemKind.IN) and rest.refs:
         raise NoMeaningError("enter, and a time")
     there = _stop_at(rest) if rest.refs else ()
-    count = -int(-seconds // MAX_SECONDS)
-    share, more = divmod(int(seconds), count)
-    waits = tuple(Stop(share + (index < more)) for index in range(count))
-    return ((*before, *there, *waits),)
+    return ((*before, *there, *waits_of(int(seconds))),)
 
 
 def read_stop(frame: ClauseFrame) -> Readings | None:

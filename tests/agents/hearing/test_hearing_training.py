@@ -15,10 +15,10 @@ from semnav_agents.hearing.mirror import mirrored  # noqa: E402
 from semnav_agents.hearing.network import NetworkShape  # noqa: E402
 from semnav_agents.hearing.presets import HEARING_PRESETS, HearingRound  # noqa: E402
 from semnav_agents.hearing.training import HearingTrainer  # noqa: E402
-from semnav_agents.networks.card import CARD_FILE, Card  # noqa: E402
-from semnav_agents.networks.weights import WEIGHTS_FILE, load_tensors  # noqa: E402
 from semnav_agents.registry import make_agent  # noqa: E402
 from semnav_env.env import SemNavEnv  # noqa: E402
+from semnav_env.networks.card import CARD_FILE, Card  # noqa: E402
+from semnav_env.networks.weights import WEIGHTS_FILE, load_tensors  # noqa: E402
 from semnav_scripts import main as cli  # noqa: E402
 
 TINY = replace(

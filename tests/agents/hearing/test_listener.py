@@ -9,10 +9,11 @@ from semnav_agents.base import steps
 from semnav_agents.hearing.agent import HearingAgent, hearing_names
 from semnav_agents.hearing.network import NetworkShape
 from semnav_agents.learned import agent_label
-from semnav_agents.networks.card import BUNDLED_FOLDER, Card
+from semnav_agents.networks.bundled import BUNDLED_FOLDER
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import load_episodes
+from semnav_env.networks.card import Card
 from tests.support.paths import GOLDEN
 
 EXPECTED = json.loads((GOLDEN / "listener.json").read_text())

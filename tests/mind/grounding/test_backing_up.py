@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
-from semnav_agents.translating.interpreter import understand
 from semnav_env import SemNavEnv
 from semnav_env.language import BackUp, Command, Distance, decode, encode, parse
 from semnav_env.mind.grounding import GroundingError, ground
@@ -110,4 +109,4 @@ def test_a_robot_backs_up_without_turning(robot: str) -> None:
 
 @pytest.mark.parametrize("text", ["reverse two metres", "fahr zwei Meter rückwärts"])
 def test_backing_up_is_not_doubted_by_the_second_opinion(text: str) -> None:
-    assert str(understand(text)) == "back up for 2 metres"
+    assert str(parse(text)) == "back up for 2 metres"

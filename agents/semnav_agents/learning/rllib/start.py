@@ -9,8 +9,8 @@ from semnav_agents.learning.policy import PolicySettings
 from semnav_agents.learning.presets import Preset
 from semnav_agents.learning.rllib.options import RayOptions
 from semnav_agents.learning.rllib.weights import RLLIB_FILE
-from semnav_agents.networks.card import Card
-from semnav_agents.networks.weights import Tensors, load_tensors
+from semnav_env.networks.card import Card
+from semnav_env.networks.weights import Tensors, load_tensors
 
 if TYPE_CHECKING:  # Ray is optional
     from semnav_agents.learning.rllib.trainer import RayTrainer

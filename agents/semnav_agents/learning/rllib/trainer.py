@@ -28,8 +28,8 @@ from semnav_agents.learning.rllib.weights import (
     beginning,
     policy_from,
 )
-from semnav_agents.networks.card import Card
-from semnav_agents.networks.weights import Tensors, save_tensors
+from semnav_env.networks.card import Card
+from semnav_env.networks.weights import Tensors, save_tensors
 
 SAMPLED = "num_env_steps_sampled_lifetime"
 """RLlib's name for the number of decisions of all runners."""

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from semnav_agents.learning.policy import Policy
 from semnav_agents.networks.adam import adam_moments, adam_shapes, adam_tensors
-from semnav_agents.networks.weights import Tensors, check_tensors, pop_count
+from semnav_env.networks.weights import Tensors, check_tensors, pop_count
 
 Weights = Mapping[str, NDArray[np.float32]]
 Moments = Mapping[int, Mapping[str, Any]]

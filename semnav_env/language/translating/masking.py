@@ -1,0 +1,140 @@
+"""Replaces the values of a text: numbers, ordinals, sides and rooms become placeholders.
+
+The network reads and writes only "value A", "side A" and "room A", each the first of its kind in
+the text. Therefore it cannot invent a number, a side or a room that was not said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from semnav_env.language.errors import CommandError
+from semnav_env.language.languages import english, languages
+from semnav_env.language.normalise import normalise
+from semnav_env.language.references import Side
+from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.speech.recognition import lexicon_for, recognised
+from semnav_env.language.speech.room_words import name_phrases
+from semnav_env.language.translating.spoken_values import number_at, room_at, side_at
+from semnav_env.language.translating.word_classes import classes_of
+from semnav_env.language.words import pieces
+
+_Key = TypeVar("_Key")
+
+MAX_VALUES, MAX_ROOMS = 6, 4
+"""The most different values and rooms of a text; texts with more are refused."""
+
+NO_MARK, FIRST_VALUE, FIRST_SIDE = 0, 1, 1 + MAX_VALUES
+FIRST_ROOM = FIRST_SIDE + 2
+MARKS = FIRST_ROOM + MAX_ROOMS
+"""Marks of words: none, the values, the two sides, the rooms."""
+
+VALUE_SYMBOLS = tuple(f"value {n}" for n in range(MAX_VALUES))
+SIDE_SYMBOLS = ("side 0", "side 1")
+ROOM_SYMBOLS = tuple(f"room {n}" for n in range(MAX_ROOMS))
+MARK_SYMBOLS = ("", *VALUE_SYMBOLS, *SIDE_SYMBOLS, *ROOM_SYMBOLS)
+"""The symbol of the network for each mark."""
+
+
+@dataclass(frozen=True)
+class MaskedText:
+    """The words of a text, with the values that were replaced.
+
+    Attributes:
+        words: in small letters; a phrase that is one value or room is one of them.
+        marks: of each word, below `MARKS`.
+        classes: of each word, those of the lexicon's phrases of which it is a part.
+        values: the numbers and ordinals other than one, in order of their first mention.
+        sides: the sides in that order.
+        rooms: the plain names of the rooms in that order.
+    """
+
+    words: tuple[str, ...]
+    marks: tuple[int, ...]
+    classes: tuple[tuple[str, ...], ...]
+    values: tuple[float, ...]
+    sides: tuple[Side, ...]
+    rooms: tuple[str, ...]
+
+
+def masked(text: str, rooms: Sequence[str]) -> MaskedText:
+    """Take the values out of a text.
+
+    Args:
+        text: in any language.
+        rooms: the names of the rooms that there are.
+
+    Raises:
+        CommandError: it has characters that no command has, is too long, or has too many values.
+    """
+    found = pieces(normalise(text, english()).text)
+    words = [piece.text for piece in found if piece.text != "'"]
+    first = recognised(words)
+    lexica = [lexicon_of(each) for each in sorted(languages().values(), key=lambda x: x != first)]
+    masking = _Masking(words, lexica, name_phrases(rooms))
+    at = 0
+    while at < len(words):
+        at = masking.take(at)
+    if len(masking.values) > MAX_VALUES or len(masking.rooms) > MAX_ROOMS:
+        problem = f"more than {MAX_VALUES} different numbers or {MAX_ROOMS} rooms"
+        raise CommandError(problem, text)
+    said = tuple(word for word, _ in masking.found)
+    marks = tuple(mark for _, mark in masking.found)
+    classes = tuple(masking.classes(lexicon_for(words, first)))
+    return MaskedText(
+        said, marks, classes, tuple(masking.values), tuple(masking.sides), tuple(masking.rooms)
+    )
+
+
+class _Masking:
+    """The words of a text that are masked so far."""
+
+    def __init__(
+        self,
+        words: Sequence[str],
+        lexica: Sequence[SpeechLexicon],
+        names: Mapping[tuple[str, ...], str],
+    ) -> None:
+        self.words, self.lexica, self.names = words, lexica, names
+        self.found: list[tuple[str, int]] = []
+        self.spans: list[range] = []
+        self.values: dict[float, None] = {}
+        self.sides: dict[Side, None] = {}
+        self.rooms: dict[str, None] = {}
+
+    def take(self, at: int) -> int:
+        """Mask the word, or the phrase, at a place; the place behind it."""
+        stop, mark = self._room(at) or self._value(at) or self._side(at) or (at + 1, NO_MARK)
+        self.found.append((" ".join(self.words[at:stop]), mark))
+        self.spans.append(range(at, stop))
+        return stop
+
+    def classes(self, lexicon: SpeechLexicon) -> Iterator[tuple[str, ...]]:
+        """The classes of each masked word; of a room its being one."""
+        known = classes_of(self.words, lexicon)
+        for (_, mark), span in zip(self.found, self.spans, strict=True):
+            named = mark >= FIRST_ROOM
+            yield ("room",) if named else tuple(dict.fromkeys(c for k in span for c in known[k]))
+
+    def _room(self, at: int) -> tuple[int, int] | None:
+        found = room_at(self.words, at, self.names, self.lexica)
+        return found and (found[1], FIRST_ROOM + _place(self.rooms, found[0]))
+
+    def _value(self, at: int) -> tuple[int, int] | None:
+        for lexicon in self.lexica:
+            if found := number_at(self.words, at, lexicon):
+                value, stop = found
+                mark = NO_MARK if value == 1.0 else FIRST_VALUE + _place(self.values, value)
+                return stop, mark
+        return None
+
+    def _side(self, at: int) -> tuple[int, int] | None:
+        found = side_at(self.words, at, self.lexica)
+        return found and (found[1], FIRST_SIDE + _place(self.sides, found[0]))
+
+
+def _place(known: dict[_Key, None], value: _Key) -> int:
+    known.setdefault(value)
+    return list(known).index(value)

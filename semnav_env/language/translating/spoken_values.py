@@ -1,0 +1,144 @@
+"""Finds the numbers, sides and rooms that words stand for, misspelt ones too."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from rapidfuzz.distance import OSA
+
+from semnav_env.language.references import Side
+from semnav_env.language.speech.lexicon import SpeechLexicon
+from semnav_env.language.speech.numerals import read_number
+from semnav_env.language.speech.typos import nearest_word
+
+LONGEST_NAME = 6
+"""The most words of the name of a room."""
+
+MIN_MISSPELT, TWO_SLIPS = 5, 9
+"""The fewest letters of a name that is known with one slip, and with two."""
+
+FEET, YARDS = 0.3048, 0.9144
+"""Metres."""
+
+SIDE_WORDS = {
+    **dict.fromkeys(("left", "links", "linke", "linken", "linker"), Side.LEFT),
+    **dict.fromkeys(("right", "rechts", "rechte", "rechten", "rechter"), Side.RIGHT),
+}
+"""Words for a side that are known with a slip, and with more behind them: "Linksdrehung"."""
+
+_HALF_MINUTE = re.compile(r"half a minute|half minute|halbe minute|halben minute|halbminute")
+
+
+def number_at(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[float, int] | None:
+    """The number at a word and the place behind it: in metres or seconds, where a unit follows.
+
+    Feet and yards are rounded to half a metre, as distances are multiples of it.
+    """
+    for stop in range(at + 1, min(at + 3, len(words)) + 1):
+        if _HALF_MINUTE.fullmatch(" ".join(words[at:stop])):
+            return 30.0, stop
+    found = lexicon.find(words, at, "ordinal") or read_number(words, at, lexicon)
+    if found is None:
+        minute = lexicon.find(words, at, "a")
+        if minute is None or not lexicon.find(words, minute[1], "minutes"):
+            return None
+        return 60.0, minute[1]
+    value, stop = float(found[0]), found[1]
+    for kind, _, _ in lexicon.matches(words, stop):
+        match kind:
+            case "minutes":
+                return value * 60, stop
+            case "cm":
+                return value / 100, stop
+            case "feet" | "yards":
+                return round(2 * value * (FEET if kind == "feet" else YARDS)) / 2, stop
+    return value, stop
+
+
+def side_at(
+    words: Sequence[str], at: int, lexica: Sequence[SpeechLexicon]
+) -> tuple[Side, int] | None:
+    """The side that the words at a place name, and the place behind them."""
+    for lexicon in lexica:
+        if found := lexicon.find(words, at, "side"):
+            return Side(found[0]), found[1]
+    word = words[at]
+    if any(word in lexicon.words for lexicon in lexica):
+        return None
+    begun = next((side for known, side in SIDE_WORDS.items() if word.startswith(known)), None)
+    near = nearest_word(word, SIDE_WORDS)
+    side = begun or (SIDE_WORDS[near] if near and near[0] == word[0] else None)
+    return None if side is None else (side, at + 1)
+
+
+def room_at(
+    words: Sequence[str],
+    at: int,
+    names: Mapping[tuple[str, ...], str],
+    lexica: Sequence[SpeechLexicon],
+) -> tuple[str, int] | None:
+    """The plain name of the room that the words at a place name, and the place behind them."""
+    for stop in range(min(len(words), at + LONGEST_NAME), at, -1):
+        name = names.get(tuple(words[at:stop]))
+        if name and not _is_number(words[at:stop], lexica):  # "three doors", not "room three"
+            return name, stop
+    if words[at].startswith('"') and len(words[at]) > 2:
+        return words[at].strip('"'), at + 1
+    return _numbered(words, at, names, lexica) or _misspelt(words, at, names, lexica)
+
+
+def _numbered(
+    words: Sequence[str],
+    at: int,
+    names: Mapping[tuple[str, ...], str],
+    lexica: Sequence[SpeechLexicon],
+) -> tuple[str, int] | None:
+    """A room whose number is said in words: "room twenty one", "Raum eins null zwei"."""
+    begins = words[at : at + 1]
+    if not any(len(name) == 2 and name[0] == begins[0] and name[1].isdigit() for name in names):
+        return None
+    found, said, place = None, "", at + 1
+    while place < min(len(words), at + LONGEST_NAME):
+        each = next((n for x in lexica if (n := read_number(words, place, x))), None)
+        if each is None or each[0] != int(each[0]):
+            break
+        said, place = said + str(int(each[0])), each[1]
+        if name := names.get((begins[0], said)):
+            found = name, place
+    return found
+
+
+def _misspelt(
+    words: Sequence[str],
+    at: int,
+    names: Mapping[tuple[str, ...], str],
+    lexica: Sequence[SpeechLexicon],
+) -> tuple[str, int] | None:
+    """A room whose name has a slip, or is parted in another way: "libary", "bücher ei"."""
+    for stop in range(min(len(words), at + 4), at, -1):
+        said = "".join(words[at:stop])
+        if len(said) < MIN_MISSPELT - 1 or all(_is_known(w, lexica) for w in words[at:stop]):
+            continue
+        most = 2 if len(said) >= TWO_SLIPS else 1
+        for name, plain in names.items():
+            whole = "".join(name)
+            if abs(len(whole) - len(said)) > most or len(whole) < MIN_MISSPELT:
+                continue
+            if OSA.distance(said, whole, score_cutoff=most) <= most and _digits(whole) == _digits(
+                said
+            ):
+                return plain, stop
+    return None
+
+
+def _is_number(words: Sequence[str], lexica: Sequence[SpeechLexicon]) -> bool:
+    return any(read_number(words, 0, lexicon) for lexicon in lexica)
+
+
+def _is_known(word: str, lexica: Sequence[SpeechLexicon]) -> bool:
+    return any(word in lexicon.words for lexicon in lexica)
+
+
+def _digits(text: str) -> str:
+    return "".join(filter(str.isdigit, text))

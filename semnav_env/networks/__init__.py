@@ -1,0 +1,1 @@
+"""Learned networks as they run: their layers in NumPy alone, and the files that hold them."""

@@ -1,1 +1,0 @@
-"""Trains and measures the chart reader, each author left out in turn."""
