@@ -65,7 +65,7 @@ ABOUT = {
     "semnav_env/networks": "the layers of learned networks in NumPy, and their files",
     "semnav_agents/planning": "the planner of the scripted agent and the oracle",
     "semnav_agents/searching": "searching a house: poses to look from, and people to approach",
-    "semnav_env/language/translating": "a learned translator, and the ranker of what it and the grammar find",
+    "semnav_env/language/translating": "a learned translator, and the ranker beside the grammar",
     "semnav_scripts": "the `semnav` command",
 }
 
