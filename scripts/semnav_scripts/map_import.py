@@ -20,8 +20,9 @@ class Arguments:
     """Make a floor plan from a map of another program, and report what was imported.
 
     It reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if they
-    exist; or the image alone), drawings (.dxf, .svg), vector maps and houses of HouseExpo (.json),
-    lists of wall segments (.csv), and floor plans in another unit than metres (.geojson).
+    exist; or the image alone), drawings (.dxf, .svg), floor plans of the KTH and MIT campus data
+    sets (.xml), vector maps and houses of HouseExpo (.json), lists of wall segments (.csv), and
+    floor plans in another unit than metres (.geojson).
 
     Attributes:
         source: the map.

@@ -42,7 +42,7 @@ def with_doors(
             doors[label.name] = door
     for door in _further(plan, labels, doors, is_free) if is_free else ():
         doors[door.name] = door
-    return _hung(plan, tuple(doors.values())), tuple(lost)
+    return hang_doors(plan, tuple(doors.values())), tuple(lost)
 
 
 def with_walls(plan: FloorPlan, straight: FloorPlan) -> FloorPlan:
@@ -59,14 +59,19 @@ def with_walls(plan: FloorPlan, straight: FloorPlan) -> FloorPlan:
     """
     walls = without_leaves(plan)
     doors = tuple([moved_along(door, walls, straight) for door in plan.doors])
-    moved = _hung(replace(walls, surfaces=straight.surfaces), doors)
+    moved = hang_doors(replace(walls, surfaces=straight.surfaces), doors)
     for door in moved.doors:
         check_doorway(door, moved)
     return moved
 
 
-def _hung(walls: FloorPlan, doors: tuple[PlanDoor, ...]) -> FloorPlan:
-    """The walls with doors, and with a leaf from jamb to jamb of those that are closed."""
+def hang_doors(walls: FloorPlan, doors: tuple[PlanDoor, ...]) -> FloorPlan:
+    """The walls with doors, and with a leaf from jamb to jamb of those that are closed.
+
+    Args:
+        walls: a plan without doors.
+        doors: those to hang.
+    """
     leaves = [Surface((door.start, door.end), Material.LEAF) for door in doors if not door.open]
     return replace(walls, surfaces=(*walls.surfaces, *leaves), doors=doors)
 
@@ -105,7 +110,7 @@ def _labelled(label: DoorLabel, plan: FloorPlan) -> PlanDoor:
     fit = fit_door(label, plan.solids)
     if fit is None:
         raise FloorPlanError(f"door {label.name!r}: no wall beside one of its jambs")
-    door = _turned(PlanDoor(label.name, fit.start, fit.end, fit.open), plan)
+    door = corridor_to_the_left(PlanDoor(label.name, fit.start, fit.end, fit.open), plan)
     check_door(door)
     if door.open:
         check_doorway(door, plan)
@@ -127,7 +132,7 @@ def _further(
         name, number = doorway.name, 2
         while name in doors:
             name, number = f"{doorway.name} ({number})", number + 1
-        door = _turned(replace(doorway, name=name), plan)
+        door = corridor_to_the_left(replace(doorway, name=name), plan)
         try:
             check_doorway(door, plan)
         except FloorPlanError:
@@ -135,7 +140,7 @@ def _further(
         yield door
 
 
-def _turned(door: PlanDoor, plan: FloorPlan) -> PlanDoor:
+def corridor_to_the_left(door: PlanDoor, plan: FloorPlan) -> PlanDoor:
     """The door directed so that its corridor, if there is one, lies to the left."""
     (x1, y1), (x2, y2) = door.start, door.end
     right = door.midpoint[0] + (y2 - y1) / door.width, door.midpoint[1] - (x2 - x1) / door.width
