@@ -139,8 +139,8 @@ class SuccessRules:
         door_distance: largest distance from the place before a door of "go to the door", metres:
             less than to the place before the next door.
         door_heading: largest heading error there, radians.
-        junction_distance: largest distance from the place inside the arm after a turn, metres: the
-            whole width of an arm.
+        junction_distance: largest distance along an arm from the place inside it after a turn,
+            metres; and across the arm, where that is not wider.
         turn_distance: largest distance from the pose at which a turn on the spot began, metres: a
             body may need room to turn.
         turn_heading: largest heading error after a turn, radians: less than between two arms.

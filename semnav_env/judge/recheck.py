@@ -149,12 +149,12 @@ class _Path:
         return np.asarray(slow & (_lasting(slow) * self.period >= goal.wait - 1e-6))
 
     def _arrives(self, goal: ReachGoal) -> Mask:
-        if goal.offset_tolerance is not None:
-            reach, side = goal.distance_tolerance + ROUNDING, goal.offset_tolerance
+        reach, side = goal.distance_tolerance + ROUNDING, goal.offset_tolerance
+        if side is not None:
             there = _placed(goal.pose, shapely.box(-reach, -side, reach, side))
-            return _later(np.asarray(shapely.covers(there, self._points))[1:])
-        away = shapely.distance(self._points, Point(goal.pose[:2]))
-        near = away <= goal.distance_tolerance + ROUNDING
+            near = np.asarray(shapely.covers(there, self._points))
+        else:
+            near = shapely.distance(self._points, Point(goal.pose[:2])) <= reach
         turned = np.angle(np.exp(1j * (self._recording.poses[:, 2] - goal.pose[2])))
         aligned = np.abs(turned) <= goal.heading_tolerance + ROUNDING
         facing = aligned | (goal.heading_tolerance >= np.pi)

@@ -47,10 +47,15 @@ def turn_goal(clause: Turn, situation: Situation) -> Goal:
 def _into_arm(
     junction: Junction, turning: Turning, because: str, situation: Situation
 ) -> ReachGoal:
-    """The goal in the mouth of a junction's arm, facing out along it."""
+    """The goal in the mouth of a junction's arm, facing out along it.
+
+    It is reached anywhere across the arm.
+    """
     corridor = situation.corridor
     rules, accepted = situation.rules.grounding, situation.rules.success
     mouth = mouth_of(junction, turning, corridor, situation.scene, rules)
+    arm = junction.left if turning is Turning.LEFT else junction.right
+    half_width = 0.0 if arm is None else (arm.far - arm.near) / 2
     return ReachGoal(
         compose(mouth, (rules.arm_depth, 0.0, 0.0)),
         accepted.junction_distance,
@@ -59,6 +64,7 @@ def _into_arm(
         corridor=corridor,
         junction=junction,
         onward=mouth,
+        offset_tolerance=max(accepted.junction_distance, half_width),
     )
 
 

@@ -77,7 +77,7 @@ class ReachGoal(BaseGoal):
         beside: the door beside which the goal lies, of "until the second door".
         offset_tolerance: if it is not None, `distance_tolerance` counts only along the pose's
             heading, and this tolerance across it, metres: at the end of a known way, where
-            odometry may have drifted.
+            odometry may have drifted, and in the arm of a junction, which may be wide.
         backwards: whether the robot drives to it backwards, without a turn.
     """
 

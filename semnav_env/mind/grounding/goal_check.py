@@ -33,12 +33,13 @@ def is_reached(
         share: of the tolerances.
     """
     near, turned, beside = tolerances
+    error = abs(wrap_angle(pose[2] - goal[2]))
+    if turned < math.pi and error > share * turned:
+        return False
     if not math.isnan(beside):
         along, offset = to_local(goal, (pose[0], pose[1]))
         return abs(along) <= share * near and abs(offset) <= beside
-    distance = math.hypot(pose[0] - goal[0], pose[1] - goal[1])
-    error = abs(wrap_angle(pose[2] - goal[2]))
-    return distance <= share * near and (turned >= math.pi or error <= share * turned)
+    return math.hypot(pose[0] - goal[0], pose[1] - goal[1]) <= share * near
 
 
 @kernel

@@ -102,6 +102,16 @@ def test_what_a_careful_robot_calls_reached_is_reached(
     assert plain or not careful
 
 
+@pytest.mark.parametrize(
+    ("offset", "turned", "there"), [(1.9, 0.0, True), (2.1, 0.0, False), (1.9, 0.6, False)]
+)
+def test_a_wide_arm_is_taken_anywhere_across_it_facing_out(
+    offset: float, turned: float, there: bool
+) -> None:
+    goal = ReachGoal((1.0, 2.0, 0.0), 1.6, 0.5, offset_tolerance=2.0)
+    assert goal.reached_by((2.5, 2.0 + offset, turned)) is there
+
+
 @pytest.mark.parametrize("care", [0.5, 1.0])
 def test_the_start_of_a_clause_does_not_depend_on_the_driving(care: float) -> None:
     follower = following("turn left at the intersection, then go to the door ahead", X_JUNCTION)
