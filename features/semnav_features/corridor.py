@@ -179,13 +179,19 @@ def corridor_at(scene: Scene, pose: Pose) -> Corridor:
     if pose not in views:
         if len(views) >= MAX_KNOWN_VIEWS:
             views.clear()
-        views[pose] = corridor_along(scene.wall_ends, scene.door_ends, scene.named_doors, pose)
+        views[pose] = corridor_along(
+            scene.wall_ends, scene.door_ends, scene.named_doors, pose, scene.opening_slack
+        )
     known: Corridor = views[pose]
     return known
 
 
 def corridor_along(
-    walls: FloatArray, doors: FloatArray, named: NDArray[np.bool_], pose: Pose
+    walls: FloatArray,
+    doors: FloatArray,
+    named: NDArray[np.bool_],
+    pose: Pose,
+    opening_slack: float = 0.0,
 ) -> Corridor:
     """Survey a corridor like `corridor_at`, from arrays.
 
@@ -194,9 +200,12 @@ def corridor_along(
         doors: the same of the jambs, shape (m, 4).
         named: which doors are known to be doors, shape (m,).
         pose: in the same frame.
+        opening_slack: added to the least lengths of openings, metres.
     """
     sides, openings = np.empty((2, PROBE_COUNT)), np.empty(MAX_OPENINGS, OPENING)
-    frame, half_width, end, count = write_survey(walls, doors, named, pose, sides, openings)
+    frame, half_width, end, count = write_survey(
+        walls, doors, named, pose, sides, openings, opening_slack
+    )
     frame = frame[0], frame[1], wrap_angle(frame[2])
     return Corridor(frame, sides[0], sides[1], half_width, end, openings[:count])
 

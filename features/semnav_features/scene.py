@@ -156,8 +156,16 @@ class Scene:
         )
 
 
+@dataclass(frozen=True)
 class StillScene(Scene):
-    """A scene that never changes, such as that of a floor plan; frequent results are kept."""
+    """A scene that never changes, such as that of a floor plan; frequent results are kept.
+
+    Attributes:
+        opening_slack: added to the least lengths of openings of corridors, metres: it shows
+            whether an answer depends on these limits.
+    """
+
+    opening_slack: float = 0.0
 
     @cached_property
     def wall_ends(self) -> FloatArray:

@@ -1,4 +1,4 @@
-"""`semnav episodes`: list, check and generate the frozen episodes, import others."""
+"""`semnav episodes`: list, check, generate and import episodes, also in real buildings."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from semnav_env.judge.episodes.generate import generate_split
 from semnav_env.judge.episodes.splits import FROZEN_SUFFIX, SEED
 from semnav_env.language.suggest import did_you_mean
 from semnav_features.interruption import for_this_process_alone
+from semnav_scripts.episodes_buildings import EpisodesBuildings
 from semnav_scripts.episodes_import import EpisodesImport
 from semnav_scripts.progress import tracked
 
@@ -152,4 +153,5 @@ Arguments = (
     | Annotated[EpisodesCheck, subcommand("check")]
     | Annotated[EpisodesGenerate, subcommand("generate")]
     | Annotated[EpisodesImport, subcommand("import")]
+    | Annotated[EpisodesBuildings, subcommand("buildings")]
 )

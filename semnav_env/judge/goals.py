@@ -15,6 +15,7 @@ from semnav_env.mind.grounding.ways import Guide
 from semnav_env.rules import Rules
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import Point, Pose
+from semnav_features.scene import Scene
 
 
 def plan_goals(
@@ -45,11 +46,15 @@ def goals_in_turn(
     start: Pose,
     guide: Guide | None = None,
     rules: Rules = Rules(),
+    scene: Scene | None = None,
 ) -> Iterator[tuple[int, Goal]]:
-    """Yield each goal with the index of its clause; an error comes after the goals before it."""
+    """Yield each goal with the index of its clause; an error comes after the goals before it.
+
+    The arguments are those of `plan_goals`, and another scene in place of the plan's own.
+    """
     guide = RoomGuide(floor_plan, command) if guide is None else guide
     follower = Follower(command, complete=True, guide=guide, rules=rules)
-    scene = floor_plan.scene_by(rules.door)
+    scene = floor_plan.scene_by(rules.door) if scene is None else scene
     try:
         follower.start(scene, start)
         while not follower.done:

@@ -78,7 +78,7 @@ def survey(
     """
     sides, openings = np.empty((2, PROBE_COUNT)), np.empty(MAX_OPENINGS, OPENING)
     pose = x, y, heading
-    frame, half_width, end, count = write_survey(walls, doors, certain, pose, sides, openings)
+    frame, half_width, end, count = write_survey(walls, doors, certain, pose, sides, openings, 0.0)
     return frame, half_width, end, sides, openings[:count]
 
 
@@ -90,8 +90,12 @@ def write_survey(
     pose: Frame,
     sides: FloatArray,
     openings: np.ndarray,
+    slack: float,
 ) -> tuple[Frame, float, float, int]:
-    """As `survey`, into arrays; returns frame, half the width, end and the count of openings."""
+    """As `survey`, into arrays; returns frame, half the width, end and the count of openings.
+
+    The `slack` is added to the least lengths of openings, metres.
+    """
     solid, axis = axis_heading(walls, doors, certain, pose)
     frame, back, end, left, right, local = axis_along(solid, pose[0], pose[1], axis)
     count, last = 0, PROBE_COUNT
@@ -99,7 +103,7 @@ def write_survey(
         last = min(PROBE_COUNT, int((end + PROBED_BEHIND) / PROBE_SPACING) + 1)
     for row, sign, usual in ((0, 1.0, left), (1, -1.0, right)):
         raw, side = probe(local, sign, back, last), sides[row]
-        count = _follow(raw, local, sign, usual, (back, end), side, openings, count)
+        count = _follow(raw, local, sign, usual, (back, end), side, openings, count, slack)
     return frame, 0.5 * (left + right), end, count
 
 
@@ -186,6 +190,7 @@ def _follow(
     side: FloatArray,
     openings: np.ndarray,
     count: int,
+    slack: float,
 ) -> int:
     """Follow one side along the corridor; note the openings where it steps back.
 
@@ -202,6 +207,7 @@ def _follow(
             opening, and beyond the stretch.
         openings: written, from row `count` on.
         count: of openings so far.
+        slack: added to the least lengths of openings, metres.
 
     Returns:
         How many openings there are now.
@@ -215,13 +221,15 @@ def _follow(
             reference = _recent(side, k, usual)
         if level or raw[k] <= reference + MAX_SIDE_STEP:
             if first >= 0:
-                count = note_opening(solid, sign, first, k, reference, openings, count, False)
+                count = note_opening(
+                    solid, sign, first, k, reference, openings, count, False, slack
+                )
             first = -1
             side[k] = raw[k]
         elif first < 0:
             first = k
     if first >= 0 and math.isfinite(end):
-        count = note_opening(solid, sign, first, last, reference, openings, count, True)
+        count = note_opening(solid, sign, first, last, reference, openings, count, True, slack)
     return count
 
 

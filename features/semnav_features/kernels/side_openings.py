@@ -48,6 +48,7 @@ def note_opening(
     openings: np.ndarray,
     count: int,
     is_at_end: bool,
+    slack: float,
 ) -> int:
     """Note the probes [first, last) as an opening, if wide and walls lead out of its edges.
 
@@ -60,13 +61,14 @@ def note_opening(
         openings: written, in row `count`.
         count: of openings so far.
         is_at_end: whether the corridor ends where the opening does.
+        slack: added to the least lengths of openings, metres.
 
     Returns:
         How many openings there are now.
     """
     near = (first - 0.5) * PROBE_SPACING - PROBED_BEHIND
     far = (last - 0.5) * PROBE_SPACING - PROBED_BEHIND
-    if far - near < MIN_BEND_WIDTH or count == len(openings):
+    if far - near < MIN_BEND_WIDTH + slack or count == len(openings):
         return count
     nearer, farther = _leads_out(solid, sign, near, offset), _leads_out(solid, sign, far, offset)
     least = MIN_OPENING_WIDTH if nearer or farther else math.inf
@@ -74,7 +76,7 @@ def note_opening(
         least = MIN_EDGED_OPENING_WIDTH
     if farther and is_at_end:
         least = MIN_BEND_WIDTH
-    if far - near < least:
+    if far - near < least + slack:
         return count
     opening = openings[count]
     opening.left, opening.near, opening.far, opening.offset = sign > 0.0, near, far, offset

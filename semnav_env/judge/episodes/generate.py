@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -75,11 +75,24 @@ def generate_split(
         yield generate_episode(site, split, number, seed)
 
 
-def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) -> Episode:
+def generate_episode(
+    site: Site,
+    split: Split,
+    number: int,
+    seed: int = SEED,
+    is_wanted: Callable[[Command, Pose], bool] | None = None,
+) -> Episode:
     """Make one episode of a split.
 
     The number of the episode determines its number of clauses and its topic. If the floor plan
     does not allow this combination, other combinations are tried.
+
+    Args:
+        site: the floor plan.
+        split: the split.
+        number: of the episode.
+        seed: of the split.
+        is_wanted: whether a command at a start is wanted; another one is drawn if not.
 
     Raises:
         TooBareError: no command was found there.
@@ -94,9 +107,15 @@ def generate_episode(site: Site, split: Split, number: int, seed: int = SEED) ->
                 language = "de" if rng.random() < GERMAN_SHARE else "en"
                 drafter = Drafter(site.plan, site.geodesic, start, rng)
                 said = maker(site, drafter, clauses, topic, language)
-                if said is not None:
+                if said is not None and _is_wanted(said, start, is_wanted):
                     return _episode(f"{split.name}-{number:05d}", site, start, language, said)
     raise TooBareError(f"{site.plan.name}: found no command of the kind of {split.name} there")
+
+
+def _is_wanted(
+    said: EpisodeDraft, start: Pose, is_wanted: Callable[[Command, Pose], bool] | None
+) -> bool:
+    return is_wanted is None or all(is_wanted(command, start) for command in said.meanings)
 
 
 def _wanted(

@@ -8,43 +8,7 @@ import shapely
 
 from semnav_env.world.maps import FloorPlanError, Material, load_floor_plan, save_floor_plan
 from semnav_env.world.maps.importers import import_map
-from tests.support.paths import DATA
-
-UNITS = 100
-"""Units of the file in a metre."""
-
-
-def space(name, kind, *lines):
-    """A space; each line is (x1, y1, x2, y2) in metres, with a type behind it if it is no wall."""
-    rows = "".join(
-        '<linesegment x1="{}" y1="{}" x2="{}" y2="{}" type="{}" target=""/>'.format(
-            *(UNITS * value for value in line[:4]), line[4] if len(line) > 4 else "Wall"
-        )
-        for line in lines
-    )
-    return f'<space name="B_{name}" type="{kind}"><contour>{rows}</contour></space>'
-
-
-def floor(*spaces, scale=f'PixelDistance="{UNITS}" RealDistance="1"'):
-    return f'<?xml version="1.0"?><floor><Scale {scale}/>{"".join(spaces)}</floor>'
-
-
-def hall(doors=((2, 3),)):
-    """A corridor 10 m by 2 m whose north side has doors between the given x."""
-    north, x = [], 10
-    for low, high in sorted(doors, reverse=True):
-        north += [(x, 2, high, 2), (high, 2, low, 2, "Portal")]
-        x = low
-    north.append((x, 2, 0, 2))
-    return space("1", "KORRIDOR", (0, 0, 10, 0), (10, 0, 10, 2, "Window"), *north, (0, 2, 0, 0))
-
-
-def room(name="2", kind="", door=(2, 2.9), thickness=0.3):
-    """A room 4 m square to the north of the hall."""
-    y = 2 + thickness
-    a, b = door
-    south = [(0, y, a, y), (a, y, b, y, "Portal"), (b, y, 4, y)]
-    return space(name, kind, *south, (4, y, 4, y + 4), (4, y + 4, 0, y + 4), (0, y + 4, 0, y))
+from tests.support.kth_floors import UNITS, floor, hall, real_floors, room, space
 
 
 @pytest.fixture
@@ -103,19 +67,9 @@ def test_no_robot_enters_a_lift(read, kind):
 
 
 def test_a_long_space_with_many_doors_is_a_corridor_without_being_called_one(read):
-    doors = ((0.5, 1.5), (3, 4), (5.5, 6.5), (8, 9))
-    hallway = hall(doors).replace("KORRIDOR", "")
-    rooms = [
-        space(
-            str(k),
-            "",
-            (a, 2.2, b, 2.2, "Portal"),
-            (b, 2.2, b, 6),
-            (b, 6, a, 6),
-            (a, 6, a, 2.2),
-        )
-        for k, (a, b) in enumerate(doors, 2)
-    ]
+    doors = [(4.2 * k + 0.2, 4.2 * k + 1.1) for k in range(2, 6)]
+    hallway = hall(doors, kind="", length=26)
+    rooms = [room(str(k), door=(4.2 * k + 0.2, 4.2 * k + 1.1), west=4.2 * k) for k in range(2, 6)]
     plan, _ = read(floor(hallway, *rooms))
     assert [region.name for region in plan.corridors] == ["1"]
     assert len(plan.rooms) == 4
@@ -135,8 +89,8 @@ def test_a_scale_that_halves_all_doors_is_corrected_and_told(read):
         ("<floor><Scale/></floor>", ("no space", "linesegment")),
         ("<!DOCTYPE floor><floor/>", ("document type",)),
         (floor(hall(), scale='PixelDistance="-1"'), ("Scale", "--drawing.scale")),
-        (floor(hall()).replace('x1="0"', 'x1="nan"', 1), ("B_1", "not finite")),
-        (floor(hall()).replace('x1="0"', 'y7="0"', 1), ("B_1",)),
+        (floor(hall()).replace('x1="0.0"', 'x1="nan"', 1), ("B_1", "not finite")),
+        (floor(hall()).replace('x1="0.0"', 'y7="0"', 1), ("B_1",)),
         (floor(hall(), scale='PixelDistance="1" RealDistance="90"'), ("at most 1,000 m",)),
     ],
 )
@@ -147,12 +101,8 @@ def test_a_faulty_plan_is_refused_in_one_line(read, text, words):
     assert all(word in str(error.value) for word in ("a.xml", *words)), error.value
 
 
-def real_floors():
-    return sorted((DATA / "kth_floors").glob("*/*.xml"))
-
-
-@pytest.mark.skipif(not real_floors(), reason="the drawn floors are not here")
-@pytest.mark.parametrize("path", real_floors()[::6], ids=lambda path: path.stem)
+@pytest.mark.skipif(not real_floors, reason="the drawn floors are not here")
+@pytest.mark.parametrize("path", real_floors[::6], ids=lambda path: path.stem)
 def test_a_real_floor_keeps_the_rules_of_plans(path, tmp_path):
     plan, report = import_map(path)
     save_floor_plan(plan, tmp_path / "plan.geojson")
@@ -161,9 +111,9 @@ def test_a_real_floor_keeps_the_rules_of_plans(path, tmp_path):
     assert 0.7 < median(door.width for door in plan.doors) < 1.2
 
 
-@pytest.mark.skipif(not real_floors(), reason="the drawn floors are not here")
+@pytest.mark.skipif(not real_floors, reason="the drawn floors are not here")
 def test_most_faces_of_real_doors_find_their_partner():
-    plans = [import_map(path).plan for path in real_floors()[::10]]
+    plans = [import_map(path).plan for path in real_floors[::10]]
     doors = [door for plan in plans for door in plan.doors]
     assert len(doors) > 100
     assert sum(door.open for door in doors) / len(doors) > 0.9

@@ -1,0 +1,83 @@
+"""`semnav episodes buildings`: the benchmark of real buildings from the user's own plans."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from semnav_env.judge.episodes import load_episodes
+from semnav_env.judge.episodes.buildings import (
+    EPISODES_PER_BUILDING,
+    TEST,
+    TUNE,
+    benchmark_floors,
+    fault_of,
+    floors_in,
+    halves,
+    listed_floors,
+    usable_floors,
+)
+from tests.support.command_line import run
+from tests.support.kth_floors import long_floor, real_floors
+from tests.support.paths import DATA
+
+
+def building(folder: Path, name: str, **floors: str) -> Path:
+    (folder / name).mkdir(parents=True)
+    for floor, text in floors.items():
+        (folder / name / f"{floor}.xml").write_text(text)
+    return folder
+
+
+def test_a_building_that_is_not_listed_makes_a_split_of_its_own(
+    tmp_path: Path, capsys: Any
+) -> None:
+    folder = building(tmp_path / "mine", "B1", one=long_floor(), none="<floor/>")
+    code, out, err = run(capsys, "episodes", "buildings", "--kth", folder, "--out", tmp_path / "o")
+    assert code == 0, err
+    assert "real_drawn_other.jsonl.gz: 15 episodes in 1 floor of 1 building; kept" in out
+    episodes = load_episodes(tmp_path / "o" / "real_drawn_other.jsonl.gz")
+    assert len(episodes) == EPISODES_PER_BUILDING
+    numbers = json.loads((tmp_path / "o" / "real_drawn.json").read_text())
+    counts = numbers["real_drawn_other"]["commands"]["B1"]
+    assert sum(counts.values()) - counts["drawn"] == EPISODES_PER_BUILDING
+    assert counts["drawn"] >= EPISODES_PER_BUILDING
+
+
+def test_a_changed_floor_of_the_benchmark_is_left_out_by_name(tmp_path: Path, capsys: Any) -> None:
+    name, stem = next(iter(listed_floors()[TUNE])).split("/")
+    folder = building(tmp_path / "mine", name, **{stem: long_floor()})
+    code, out, err = run(capsys, "episodes", "buildings", "--kth", folder, "--out", tmp_path / "o")
+    assert code == 0, err
+    assert f"left out: {name}/{stem}: its fingerprint is" in out
+
+
+def test_a_folder_without_floors_is_refused(tmp_path: Path, capsys: Any) -> None:
+    code, _, err = run(capsys, "episodes", "buildings", "--kth", tmp_path, "--out", tmp_path / "o")
+    assert code == 2
+    assert "BUILDING/FLOOR.xml" in err
+    assert not (tmp_path / "o").exists()
+
+
+def test_buildings_to_tune_on_are_none_to_test_on() -> None:
+    tune, test = ({name.split("/")[0] for name in listed_floors()[s]} for s in (TUNE, TEST))
+    assert tune
+    assert test
+    assert not tune & test
+
+
+@pytest.mark.skipif(not real_floors, reason="the drawn floors are not here")
+def test_the_listed_floors_are_those_of_the_rule() -> None:
+    floors = floors_in([DATA / "kth_floors"])
+    half = halves([floor.building for floor in floors])
+    chosen = {floor.name: half[floor.building] for floor in usable_floors(floors)}
+    assert chosen == {name: split for split, names in listed_floors().items() for name in names}
+
+
+@pytest.mark.skipif(not real_floors, reason="the drawn floors are not here")
+def test_the_fingerprints_are_those_of_the_floors(tmp_path: Path) -> None:
+    for floor, split in benchmark_floors([DATA / "kth_floors"])[::9]:
+        assert fault_of(floor, split, floor.save(tmp_path).plan) is None
