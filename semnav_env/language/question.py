@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any, TypeAlias
 
 from semnav_env.language.answers import REJECTED, Choice, choice_of
-from semnav_env.language.clauses import Approach, Clause, Stop, Turning
+from semnav_env.language.clauses import Approach, Clause, IfThere, Stop, Turning
 from semnav_env.language.command import Command
 from semnav_env.language.declarations import Spoken, field_names, is_ordinal
 from semnav_env.language.errors import CommandError
@@ -68,6 +68,11 @@ class Question:
             asked = say("question_one", choice=self.choices[0].name)
         return asked[0].upper() + asked[1:]
 
+    @property
+    def is_plain(self) -> bool:
+        """Whether it only asks which reading is meant, with all words understood."""
+        return not self.misspelt and not self.unread
+
     @cached_property
     def names_both(self) -> bool:
         """Whether both choices are named; where that takes long, only the likelier one is."""
@@ -93,6 +98,8 @@ class Question:
 
     def _said(self, part: Any) -> str:
         """A part in the words of the speaker's language."""
+        if isinstance(part, Command) and any(isinstance(c, IfThere) for c in part.clauses):
+            return part.say(self.language)
         if isinstance(part, Command):
             return self.language.say("and").join(self._said(clause) for clause in part.clauses)
         if isinstance(part, Approach):

@@ -29,7 +29,7 @@ class Recipe:
     """
 
     generated: int = 8000
-    disturbed: int = 72000
+    disturbed: int = 64000
     seed: int = 0
     training: TranslatorTraining = field(default_factory=TranslatorTraining)
 

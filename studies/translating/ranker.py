@@ -13,9 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from semnav_env.language.command import room_of
 from semnav_env.language.corpora import Sentence, load_sentences
 from semnav_env.language.corpora.meanings import normal
 from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.rewording import paraphrases
+from semnav_env.language.sampling import sample_command
 from semnav_env.language.stops import is_stop
 from semnav_env.language.translating.candidates import heard, meaning
 from semnav_env.language.translating.ranking import evidence
@@ -67,6 +70,24 @@ def _ranked(sentence: Sentence, rooms: Sequence[str], folder: Path, language: st
         tuple(meaning(each.command) in meant for each in found.candidates),
         language,
     )
+
+
+def paraphrased(count: int, folder: Path) -> Iterator[RankedText]:
+    """Paraphrases of the generator, half of them German, with one to six clauses each.
+
+    People say such long routes rarely, and the grammar reads these rightly.
+    """
+    rng = np.random.default_rng(0)
+    for number in range(count):
+        command, code = sample_command(rng, 6, 5), ("en", "de")[number % 2]
+        text = paraphrases(command, rng, 1, code)[0]
+        found = heard(text, None, tuple(filter(None, map(room_of, command.clauses))), folder)
+        yield RankedText(
+            "feasible",
+            tuple(evidence(each, found) for each in found.candidates),
+            tuple(meaning(each.command) == meaning(command) for each in found.candidates),
+            "generated",
+        )
 
 
 def learned(texts: Sequence[RankedText]) -> dict[str, float]:

@@ -15,10 +15,17 @@ from semnav_env.networks.card import CARD_FILE
 from semnav_features.writing import write_file
 from studies.corpora import LEARNED, TUNED, corpora_of
 from studies.translating.command import Recipe
-from studies.translating.ranker import RankedText, learned, ranked_texts, shares_of
+from studies.translating.ranker import RankedText, learned, paraphrased, ranked_texts, shares_of
+from studies.translating.training import TranslatorTraining
 
 HALVES = (LEARNED[::2], LEARNED[1::2])
 """Authors who are ranked together; the translator of their texts learned from the others."""
+
+LIGHTER = Recipe(disturbed=48000, training=TranslatorTraining(steps=9000))
+"""What the two translators learn from: less than the bundled one, as they know fewer authors."""
+
+PARAPHRASES = 400
+"""Of the generator, from which the ranker learns, too."""
 
 ACTING = (0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95)
 """The limits that are shown."""
@@ -40,7 +47,7 @@ class Arguments:
 
     folder: Path = Path("out/halves")
     out: Path = TRAINED_FOLDER
-    recipe: Recipe = field(default_factory=Recipe)
+    recipe: Recipe = field(default_factory=lambda: LIGHTER)
 
     def run(self) -> int:
         """Learn and write the weights."""
@@ -51,7 +58,7 @@ class Arguments:
             for weights in [learned(known)]
             for text in asked
         ]
-        for language in ("english", "german"):
+        for language in ("english", "german", "generated"):
             _show(language, [pair for pair in crossed if pair[0].language == language])
         weights = learned([text for half in halves for text in half])
         write_file(self.out / RANKER_FILE, json.dumps(weights, indent=1) + "\n")
@@ -64,7 +71,8 @@ class Arguments:
         if not (folder / CARD_FILE).exists():
             others = [each for each in LEARNED if each not in HALVES[number]]
             self.recipe.train((*TUNED, *others), folder)
-        return [t for path in corpora_of(HALVES[number]) for t in ranked_texts(path, folder)]
+        said = [t for path in corpora_of(HALVES[number]) for t in ranked_texts(path, folder)]
+        return [*said, *paraphrased(PARAPHRASES, folder)]
 
 
 def _show(language: str, texts: Sequence[tuple[RankedText, Iterable[float]]]) -> None:

@@ -278,7 +278,7 @@ def test_a_failed_reset_leaves_nothing_to_step() -> None:
 def test_a_refused_first_reset_can_be_followed_by_another() -> None:
     env = gym.make("semnav_env:SemNav-v0")
     with pytest.raises(CommandError):
-        env.reset(options={"command": "turn lef"})
+        env.reset(options={"command": "blargh"})
     env.reset(seed=0, options={"command": "turn left"})
     env.step(env.action_space.sample())
 

@@ -241,6 +241,8 @@ def test_candidates_differ_in_meaning() -> None:
         ("wait two minutes", (), (120.0,), (), ()),
         ("eine halbe Minute warten, Linksdrehung", (), (30.0,), ("left",), ()),
         ("wait a minute", (), (60.0,), (), ()),
+        ("wait for 1 second, then take the second door", (), (2.0,), (), ()),
+        ("wait for 2 seconds", (), (2.0,), (), ()),
         ("90 degrees counterclockwise", (), (90.0,), ("left",), ()),
         ("to the libary", ("library",), (), (), ("library",)),
         ("zum Büchereiraum, in die bücher ei", ("Bücherei",), (), (), ("buecherei",)),

@@ -140,7 +140,7 @@ def test_looking_at_floor_plans_loads_no_kernel(words):
 
 def test_grounding_a_plain_command_loads_what_it_needs():
     words = ("ground", "go left", "--map", "office_cross", "--pose", "3,11.5,0")
-    assert not loaded_by(*words) & {"typeguard", "jsonschema", "rapidfuzz", "asyncio"}
+    assert not loaded_by(*words) & {"typeguard", "jsonschema", "asyncio"}
 
 
 def test_map_list_and_show_agree(capsys, tmp_path):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 if TYPE_CHECKING:
     from semnav_env.mind.belief import Belief, BeliefTracker
 
-NEEDED = ("language", "mind", "robots", "rules")
+NEEDED = ("networks", "language", "mind", "robots", "rules")
 """What of `semnav_env` a robot may need; all else belongs to the simulator."""
 
 

@@ -62,6 +62,10 @@ class HeardText:
         """The evidence in the words of the text."""
         return TextSupport.of(self.translated.plain.words if self.translated else ())
 
+    def speaks_of(self, found: Candidate) -> bool:
+        """Whether the grammar reads a candidate, or the words name all that it is about."""
+        return found.read or self.support.speaks_of(found.command)
+
     @property
     def readings(self) -> int:
         """The number of the grammar's readings."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from semnav_env.language.clauses import GoToDoor
@@ -78,11 +78,15 @@ class LearnedInterpreter:
             if self._is_canonical(text, only.command):
                 return self._taken(text, only, 1.0)
         order = ranked(found, self.folder)
-        if order and order[0][1] >= self.limits.acting and not _is_settled(found):
+        if order and self._may_act(*order[0]) and not _is_settled(found):
             return self._taken(text, *order[0])
         if isinstance(text, str) and begins_or_ends_with_stop(text):
             return self._stop(text)
         raise self._doubt(found, order)
+
+    def _may_act(self, found: Candidate, share: float) -> bool:
+        """Whether a candidate is likely enough, and no number, side or room is lost on the way."""
+        return share >= self.limits.acting and (found.read or found.unsaid == 0)
 
     def _stop(self, text: str) -> Interpretation:
         """A stop, in whatever text; its language does not matter."""
@@ -93,7 +97,19 @@ class LearnedInterpreter:
         return Interpretation(text, (found.command,), self._spoken(text), by, share)
 
     def _doubt(self, text: HeardText, order: Sequence[tuple[Candidate, float]]) -> CommandError:
-        """The question, or the refusal."""
+        """The question, or the refusal.
+
+        Where the grammar knows which of its readings is open, it is asked as it says.
+        """
+        asked = text.refusal
+        if isinstance(asked, AmbiguousCommandError) and asked.question.is_plain:
+            return AmbiguousCommandError(text.text, replace(asked.question, read=self._read))
+        if text.refusal is None and text.readings > 1:
+            order = [(each, share) for each, share in order if each.read]
+            readings = tuple(each.command for each, _ in order[: self.limits.choices])
+            question = Question(readings, self._spoken(text.text), self._read)
+            return AmbiguousCommandError(text.text, question)
+        order = [each for each in order if text.speaks_of(each[0])]
         likely = order[: self.limits.choices]
         if sum(share for _, share in likely) < self.limits.asking or _is_settled(text):
             unread = CommandError("this is not understood", text.text[:200])

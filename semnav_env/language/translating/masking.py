@@ -15,6 +15,7 @@ from semnav_env.language.languages import english, languages
 from semnav_env.language.normalise import normalise
 from semnav_env.language.references import Side
 from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.speech.numerals import read_number
 from semnav_env.language.speech.recognition import lexicon_for, recognised
 from semnav_env.language.speech.room_words import name_phrases
 from semnav_env.language.translating.spoken_values import number_at, room_at, side_at
@@ -123,12 +124,22 @@ class _Masking:
         return found and (found[1], FIRST_ROOM + _place(self.rooms, found[0]))
 
     def _value(self, at: int) -> tuple[int, int] | None:
+        if at and self._is_counted_unit(at):
+            return None
         for lexicon in self.lexica:
             if found := number_at(self.words, at, lexicon):
                 value, stop = found
                 mark = NO_MARK if value == 1.0 else FIRST_VALUE + _place(self.values, value)
                 return stop, mark
         return None
+
+    def _is_counted_unit(self, at: int) -> bool:
+        """Whether a word is the "second" of "1 second"."""
+        return any(
+            lexicon.find(self.words, at, "seconds")
+            and (read_number(self.words, at - 1, lexicon) or self.words[at - 1] == "a")
+            for lexicon in self.lexica
+        )
 
     def _side(self, at: int) -> tuple[int, int] | None:
         found = side_at(self.words, at, self.lexica)

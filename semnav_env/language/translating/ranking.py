@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from semnav_env.language.clauses import Stop
+from semnav_env.language.question import AmbiguousCommandError
 from semnav_env.language.translating.candidates import Candidate, HeardText
 from semnav_env.language.translating.word_classes import UNKNOWN
 
@@ -66,8 +67,10 @@ def evidence(each: Candidate, text: HeardText) -> dict[str, float]:
         "refusal": refusal,
         "unsaid": min(each.unsaid, 2),
         "clauses": len(each.command.clauses) / 4,
+        "log likeness of a clause": likeness / len(each.command.clauses),
         "words": len(text.translated.plain.words) / 20 if text.translated else 1.0,
         "unknown words": _unknown(text),
+        "known words": float(_unknown(text) == 0.0),
         "unlikened": float(each.likeness is None),
         "untranslated": float(text.translated is None),
         "idle": float(all(isinstance(clause, Stop) for clause in each.command.clauses)),
@@ -76,7 +79,10 @@ def evidence(each: Candidate, text: HeardText) -> dict[str, float]:
         "forbidding": float(text.support.is_forbidding),
     }
     role = _role(each, text)
-    about = ("any", "log likeness", "refusal", "unknown words", "unspoken", "forbidding")
+    about = (
+        *("any", "log likeness", "log likeness of a clause", "refusal", "unknown words"),
+        *("known words", "clauses", "unspoken", "forbidding"),
+    )
     return found | {f"{role}: {name}": found[name] for name in about}
 
 
@@ -86,6 +92,8 @@ def _role(each: Candidate, text: HeardText) -> str:
         return "only reading" if text.readings == 1 else "reading"
     if each.read:
         return "leaves words out" if text.leaves_out else "asked about"
+    if isinstance(text.refusal, AmbiguousCommandError):
+        return "beside a question"
     return "beside a reading" if text.refusal is None else "not read"
 
 

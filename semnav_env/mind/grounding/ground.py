@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from semnav_env.language.clauses import (
+    Approach,
     BackUp,
     Clause,
     Face,
@@ -17,7 +18,7 @@ from semnav_env.language.clauses import (
     Turn,
 )
 from semnav_env.language.command import reference_of
-from semnav_env.language.references import PlaceOffset, RoomReference
+from semnav_env.language.references import ENTRY, DoorReference, PlaceOffset, RoomReference
 from semnav_env.mind.grounding.corridor_goals import follow_goal, turn_goal
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.goal import Goal, StopGoal
@@ -74,6 +75,10 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
     """
     situation = situation.towards(reference_of(clause))
     match clause:
+        case GoToDoor(DoorReference(ordinal), Approach.THROUGH) if (
+            ordinal == ENTRY and situation.entry is None
+        ):
+            return leave_goal(situation)
         case GoToDoor():
             return door_goal(clause, situation)
         case Turn():

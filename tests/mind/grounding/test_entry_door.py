@@ -17,11 +17,12 @@ from semnav_env.language import (
     Follow,
     GoToDoor,
     IfThere,
+    Leave,
     Side,
     decode,
     encode,
     from_program,
-    parse,
+    read,
     to_program,
 )
 from semnav_env.language.corpora.meanings import meaning_of, normal
@@ -56,7 +57,7 @@ THROUGH, TO, FACE = GoToDoor(DOOR), GoToDoor(DOOR, Approach.TO), Face(DOOR)
     ],
 )
 def test_the_door_we_came_in_by_is_understood(text: str, clause: GoToDoor | Face) -> None:
-    assert parse(text).clauses == (clause,)
+    assert read(text).clauses == (clause,)
 
 
 @pytest.mark.parametrize("clause", [THROUGH, TO, GoToDoor(DOOR, Approach.IN), FACE])
@@ -64,7 +65,7 @@ def test_the_entry_is_the_same_in_every_notation(clause: GoToDoor | Face) -> Non
     command = Command((clause,))
     assert decode(encode(command)) == from_program(to_program(command)) == command
     for language in ("en", "de"):
-        assert parse(command.say(language), language) == command
+        assert read(command.say(language), language) == command
     assert meaning_of(command) == read_meaning(notation_of(command))
     assert "door(entry)" in notation_of(command)
 
@@ -80,13 +81,20 @@ def test_the_entry_has_no_side_and_lies_not_ahead() -> None:
         with pytest.raises(ValueError, match="lies behind"):
             kind(DOOR)
     with pytest.raises(CommandError, match="lies behind"):
-        parse("go past the door you came in by")
+        read("go past the door you came in by")
 
 
-@pytest.mark.parametrize("clause", [THROUGH, TO, FACE])
+ONE_DOOR = Scene((), (Door((5.0, -0.5), (5.0, 0.5)),))
+
+
+@pytest.mark.parametrize("clause", [TO, FACE])
 def test_a_robot_that_came_through_no_door_says_so(clause: GoToDoor | Face) -> None:
     with pytest.raises(GroundingError, match="the robot has come through no door; say which"):
-        ground(clause, Scene((), (Door((5.0, -0.5), (5.0, 0.5)),)), ORIGIN)
+        ground(clause, ONE_DOOR, ORIGIN)
+
+
+def test_a_robot_that_came_through_no_door_leaves_by_the_only_one() -> None:
+    assert ground(THROUGH, ONE_DOOR, ORIGIN) == ground(Leave(), ONE_DOOR, ORIGIN)
 
 
 @pytest.mark.parametrize("drift", [0.0, 0.5])
