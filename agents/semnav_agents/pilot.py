@@ -64,7 +64,13 @@ class Pilot:
         self._last: Twist = (0.0, 0.0, 0.0)
 
     def act(
-        self, points: FloatArray, doors: FloatArray, goal: SeenGoal, pose: Pose, velocity: Twist
+        self,
+        points: FloatArray,
+        doors: FloatArray,
+        goal: SeenGoal,
+        pose: Pose,
+        velocity: Twist,
+        moving: FloatArray = NO_POINTS,
     ) -> NDArray[np.float32]:
         """The next action.
 
@@ -74,6 +80,7 @@ class Pilot:
             goal: in the robot frame.
             pose: of the robot's centre.
             velocity: of the robot's centre.
+            moving: obstacles that move, shape (m, 2), in the frame of `pose`.
         """
         if goal.kind is GoalKind.STOP:
             return self._action(0.0, 0.0, 0.0)
@@ -83,13 +90,11 @@ class Pilot:
             return self._action(speed * forward, speed * left, BACKING_YAW_RATE * yaw_rate)
         if goal.door is not None:
             points = np.vstack((points, [to_parent(pose, jamb) for jamb in goal.door]))
-        barriers = NO_POINTS
-        if goal.kind is not GoalKind.SEEK:  # a robot that explores may go through any door
-            others = barriers_across(_other_doors(doors, goal), self.robot)
-            barriers = points_to_parent(pose, others)
+        others = barriers_across(_other_doors(doors, goal), self.robot)
+        barriers = points_to_parent(pose, others)
         door = _side(goal, pose)
         target = _target(goal, pose) if door is None else self._exit.target(door)
-        steering = self.driver.drive(points, target, pose, velocity, barriers)
+        steering = self.driver.drive(points, target, pose, velocity, barriers, moving)
         if door is not None:
             self._note(steering, points)
         self._last = steering.twist

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
 from semnav_agents.pilot import Pilot
+from semnav_agents.planning.moving import MovingHits
 from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
 from semnav_env.mind.observations import SeenGoal, read_odometry, table
 from semnav_env.robots import RobotSpec
@@ -25,7 +26,7 @@ class ScriptedAgent:
     observation = "all"
 
     def __init__(self) -> None:
-        self._obstacles = ObstacleMemory()
+        self._obstacles, self._moving = ObstacleMemory(), MovingHits()
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode with the body and the lidar of `info`."""
@@ -33,6 +34,7 @@ class ScriptedAgent:
         self._lidar = LidarSpec(**info["lidar"])
         self._beams = self._lidar.directions
         self._obstacles.reset()
+        self._moving.reset()
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action.
@@ -43,12 +45,14 @@ class ScriptedAgent:
         if not {"scan", "goal"} <= observation.keys():
             raise ValueError('the scripted agent needs scan and goal: give observation="all"')
         pose, velocity = read_odometry(observation)
-        mount = self._pilot.robot.lidar_mount
+        lidar = compose(pose, self._pilot.robot.lidar_mount)
         ranges, limit = observation["scan"], self._lidar.range_max
-        self._obstacles.update(compose(pose, mount), ranges, self._beams, limit)
+        moves = self._moving.update(lidar, ranges, self._beams, limit)
+        self._obstacles.update(lidar, np.where(moves, 0.0, ranges), self._beams, limit)
+        moving = points_to_parent(lidar, ranges[moves, None] * self._beams[moves])
         goal = SeenGoal.read(observation["goal"])
         doors = table(observation, "remembered_doors").astype(np.float64)
         bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
         walls = points_to_parent(pose, bumps).reshape(-1, 4)
         points = np.vstack((self._obstacles.points(), points_of_segments(walls)))
-        return self._pilot.act(points, doors, goal, pose, velocity)
+        return self._pilot.act(points, doors, goal, pose, velocity, moving)

@@ -18,6 +18,7 @@ from semnav_features.kernels.memory import (
     remember,
     what_counts,
 )
+from semnav_features.kernels.past_views import PAST_VIEWS
 from semnav_features.kernels.remembered import WALL_ROWS
 from semnav_features.rules import DoorRules
 from semnav_features.scene import PlainWalls, RememberedDoors, Scene, ends_of
@@ -39,7 +40,8 @@ class SceneMemory:
     door counts while its sightings, by their confidence, outweigh the scans that looked at its
     opening and found no door there, or found it filled (`kernels.door_memory`), and while its
     jambs, fused from all sightings, are a door's width apart. Of two doors in one place only the
-    likelier one counts.
+    likelier one counts. What stands where an earlier view passed, such as a person or the leaf of
+    a door, is neither wall nor jamb (`kernels.past_views`).
 
     Args:
         door_rules: widths of doors.
@@ -49,16 +51,17 @@ class SceneMemory:
         self._walls = np.zeros((WALL_ROWS, MAX_WALLS))
         self._doors = np.zeros(MAX_DOORS, dtype=REMEMBERED_DOOR)
         self._state = np.zeros(1, dtype=MEMORY_STATE)
+        self._views = np.zeros(1, dtype=PAST_VIEWS)
         self._state["narrowest"], self._state["widest"] = door_rules.narrowest, door_rules.widest
 
     @property
-    def arrays(self) -> tuple[FloatArray, NDArray[np.void], NDArray[np.void]]:
-        """(walls, doors, counters) for a kernel that updates them in place.
+    def arrays(self) -> tuple[FloatArray, NDArray[np.void], NDArray[np.void], NDArray[np.void]]:
+        """(walls, doors, counters, past views) for a kernel that updates them in place.
 
         The walls have the rows that `kernels.remembered` names, shape (`WALL_ROWS`, room); the
-        dtypes of the others are `REMEMBERED_DOOR` and `MEMORY_STATE`.
+        dtypes of the others are `REMEMBERED_DOOR`, `MEMORY_STATE` and `PAST_VIEWS`.
         """
-        return self._walls, self._doors, self._state
+        return self._walls, self._doors, self._state, self._views
 
     def clear(self) -> None:
         """Forget everything."""
@@ -68,7 +71,7 @@ class SceneMemory:
     def copy(self) -> SceneMemory:
         """A copy of the present memory for reading; it has no capacity for more."""
         copy = object.__new__(SceneMemory)
-        copy._state = self._state.copy()
+        copy._state, copy._views = self._state.copy(), self._views[:0]
         walls, doors = (int(self._state[name][0]) for name in ("walls", "doors"))
         room = walls + -walls % WIDTH
         copy._walls, copy._doors = self._walls[:, :room].copy(), self._doors[:doors].copy()
@@ -133,9 +136,9 @@ class SceneMemory:
     @property
     def size(self) -> tuple[int, int]:
         """Number of walls and of doors that count."""
-        return how_many_count(*self.arrays)
+        return how_many_count(self.arrays)
 
     def scene(self) -> Scene:
         """The walls and doors that count, in the memory's frame, in the order first seen."""
-        walls, doors, beliefs = what_counts(*self.arrays)
+        walls, doors, beliefs = what_counts(self.arrays)
         return Scene(PlainWalls(walls), RememberedDoors(doors, beliefs))

@@ -241,6 +241,53 @@ def test_a_short_detour_leads_around_a_barrier():
         assert driver.path.crosses(*GATES[gate])
 
 
+@ROBOTS
+def test_a_robot_waits_for_what_moves_on_its_path_and_then_plans_around_it(robot):
+    person = np.array(
+        [(2.0 + 0.25 * math.cos(a), 0.25 * math.sin(a)) for a in np.arange(0, 6, 0.1)]
+    )
+    driver, target = Driver(robot), DriveTarget((4.0, 0.0, 0.0))
+    here = 0.8, 0.0, 0.0
+    for _ in range(driver.patience):
+        steering = driver.drive(NOTHING, target, here, moving=person)
+        assert steering.twist == (0.0, 0.0, 0.0)
+        assert driver.plans == 1
+    driver.drive(NOTHING, target, here, moving=person)
+    driver.drive(NOTHING, target, here, moving=person)
+    assert driver.plans == 2
+    assert is_free(person, driver.path.poses, robot)
+
+
+def test_what_moves_is_not_evaded_through_a_barrier():
+    points, barrier = wall_with_two_gaps()
+    across = points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))
+    person = barrier + np.array((0.3, 0.0))
+    driver, target = Driver(WHEELCHAIR), DriveTarget((6.0, 0.0, 0.0), 0.2, None)
+    for _ in range(3 * driver.patience):
+        driver.drive(points, target, (2.3, 0.0, 0.0), barriers=across, moving=person)
+        assert is_free(across, driver.path.poses, WHEELCHAIR)
+
+
+@ROBOTS
+def test_what_moves_beside_the_path_or_away_from_it_stops_nobody(robot):
+    target = DriveTarget((4.0, 0.0, 0.0))
+    for place in ((2.0, 1.0), (-0.8, 0.0), (0.0, 0.5)):
+        steering = Driver(robot).drive(NOTHING, target, (0.0, 0.0, 0.0), moving=np.array([place]))
+        assert steering.forward > 0.0
+
+
+def test_a_robot_that_seeks_waits_before_it_passes_a_barrier():
+    points, barrier = wall_with_two_gaps()
+    closed = np.vstack((points, points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))))
+    driver, target = Driver(WHEELCHAIR), DriveTarget((5.0, 0.0, 0.0), 0.4, None)
+    pose, steps = (1.5, 0.0, 0.0), 0
+    driver.drive(closed, target, pose, barriers=barrier)
+    while not driver.path.crosses(*GATES[0.0]):
+        steps, pose = steps + 1, driver.path.end
+        driver.drive(closed, target, pose, barriers=barrier)
+    assert driver.patience <= steps < 2 * driver.patience
+
+
 def test_doorways_are_barred_but_for_the_one_the_robot_stands_in():
     beside, here = (2.0, 1.0, 3.0, 1.0), (0.3, -0.5, 0.3, 0.5)
     barriers = barriers_across(np.array([beside, here]), WHEELCHAIR)

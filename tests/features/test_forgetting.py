@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.past_views import VIEWS
 from semnav_features.memory import MAX_DOORS, MAX_WALLS, SceneMemory
 from semnav_features.scan import Scan
 from semnav_features.scene import Scene
@@ -68,7 +69,9 @@ def test_a_view_of_one_side_is_no_evidence_on_a_door(
     hidden: slice,
 ) -> None:
     """Beams of one degree: the opening spans 76 to 104 degrees, beams 256 to 284."""
-    for ranges in (beams_that_end_at(4.0), beams_that_end_at(4.0)[:286]):
+    looks = beams_that_end_at(2.0)
+    looks[256:285] = beams_that_end_at(4.0)[256:285]
+    for ranges in (looks, looks[:286]):
         memory = SceneMemory()
         see(memory, doors=[AHEAD], scans=4)
         seen = ranges.copy()
@@ -80,13 +83,14 @@ def test_a_view_of_one_side_is_no_evidence_on_a_door(
 WALL_AHEAD: Ends = (0.5, 2.0, -0.5, 2.0)
 
 
-def test_a_wall_seen_through_is_forgotten_and_comes_back() -> None:
+def test_a_wall_seen_through_is_forgotten_and_comes_back_when_the_robot_has_driven_on() -> None:
     memory = SceneMemory()
     see(memory, walls=[WALL_AHEAD], scans=200)
     see(memory, ranges=beams_that_end_at(3.0), scans=40)
     assert memory.size[0] == 0
-    see(memory, walls=[WALL_AHEAD], scans=3)
-    assert memory.size[0] == 1
+    for k in range(VIEWS + 1):
+        see(memory, walls=[WALL_AHEAD], pose=(1.0 * k, 0.0, 0.0), scans=3)
+        assert memory.size[0] == (k >= VIEWS)
 
 
 @pytest.mark.parametrize(

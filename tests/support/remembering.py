@@ -15,7 +15,7 @@ Ends = tuple[float, float, float, float]
 
 HERE: Pose = (0.0, 0.0, 0.0)
 ANGLES = (-math.pi, math.radians(1.0))
-NOTHING = np.full(360, np.inf)
+NOTHING = np.full(360, -np.inf)
 
 WALL_A: Ends = (0.0, 1.0, 3.0, 1.0)
 DOOR_A: Ends = (3.0, 1.0, 4.0, 1.0)

@@ -11,7 +11,7 @@ from semnav_agents.planning.doorway import room_behind
 from semnav_agents.planning.follower import PathProgress, Steering, follow
 from semnav_agents.planning.free import points_around
 from semnav_agents.planning.guard import SPEED_SHARES, safe_share
-from semnav_agents.planning.nudge import best_nudge, path_clearances
+from semnav_agents.planning.nudge import best_nudge, path_clearance, path_clearances
 from semnav_agents.planning.path import PlannedPath, joined
 from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
 from semnav_agents.planning.track import FollowerSettings, PathTrack
@@ -40,13 +40,24 @@ Most of the path must have been driven: from the same place the same path would 
 LOOKAHEAD = 4.0
 """Distance beyond which obstacles do not matter to the next metres of a path, metres."""
 
+YIELD_CLEARANCE = 0.2
+"""Clearance from what moves below which a robot waits, metres."""
+
+YIELD_APPROACH = 0.02
+"""A robot waits only where it would come nearer than it is by this much, metres."""
+
+YIELD_DISTANCE, YIELD_SECONDS = 0.5, 1.2
+"""What moves matters on the path up to this distance, and up to what is driven in this time, metres
+and seconds."""
+
 
 @dataclass
 class Driver:
     """Drives one robot to targets, and plans again when needed.
 
     It plans again when the target moves, when an obstacle lies on the path, when the robot is off
-    the path, and when a path that led only part of the way is nearly driven.
+    the path, and when a path that led only part of the way is nearly driven. For what moves it
+    waits; only if that does not go away it plans around it.
 
     Attributes:
         robot: footprint and limits.
@@ -57,6 +68,7 @@ class Driver:
         insist_after: number of refusals in a row after which a steering is allowed.
         retry_after: steps to stand still where there is no path.
         detour: largest length of a path around barriers, as a multiple of the direct path.
+        patience: steps to wait for what moves; and for what leaves no way but through a barrier.
     """
 
     robot: RobotSpec
@@ -67,6 +79,7 @@ class Driver:
     insist_after: int = 4
     retry_after: int = 8
     detour: float = 1.5
+    patience: int = 45
 
     def __post_init__(self) -> None:
         self.reset()
@@ -83,6 +96,7 @@ class Driver:
         self._braking = False
         self._refusals = 0
         self._heeds_barriers = False
+        self._yielded = self._around = self._barred = 0
 
     def plan_at_once(self) -> None:
         """Plan to the next target without standing still first."""
@@ -95,6 +109,7 @@ class Driver:
         pose: Pose,
         velocity: Twist = (0.0, 0.0, 0.0),
         barriers: FloatArray = NO_POINTS,
+        moving: FloatArray = NO_POINTS,
     ) -> Steering:
         """The velocities for this step; `done` once the target is reached.
 
@@ -105,9 +120,12 @@ class Driver:
             velocity: of the robot now.
             barriers: points across doorways that do not lead to the target's gate, metres, shape
                 (M, 2); nothing stands there.
+            moving: points on what moves, metres, shape (L, 2).
         """
         self._step += 1
         self._wait -= 1
+        self._around -= 1
+        standing, points = points, np.vstack((points, moving)) if self._around > 0 else points
         self._braking = self._braking and max(map(abs, velocity)) > 0.05
         if self._braking:
             return STANDSTILL
@@ -115,12 +133,39 @@ class Driver:
             if self._wait > 0:
                 return STANDSTILL
             self._plan(points, target, pose, velocity, barriers)
+            if self._around > 0 and not self._keeps_off(barriers):
+                self._around = 0
+                self._plan(standing, target, pose, velocity, barriers)
         assert self._track is not None
+        if self._around <= 0 and self._yields(moving, pose, velocity):
+            return STANDSTILL
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
         if steering.deviation > self.follower.lost:
             return self._stop()
+        near = points_around(pose, moving, 1.5 * self.robot.length)
+        if safe_share(near, steering.twist, velocity, self.robot) == 0.0:
+            return STANDSTILL  # it is no noise, so that the robot never insists
         return self._guarded(points, pose, velocity, steering)
+
+    def _yields(self, moving: FloatArray, pose: Pose, velocity: Twist) -> bool:
+        """Whether to wait for what moves on the next stretch of the path, nearer than it is now.
+
+        What is still there after `patience` steps is planned around for as long, but not through a
+        barrier.
+        """
+        distance = YIELD_DISTANCE + YIELD_SECONDS * math.hypot(velocity[0], velocity[1])
+        near = points_around(pose, moving, distance + self.robot.length)
+        ahead, size = self._ahead(pose, distance), (self.robot.length, self.robot.width)
+        now = path_clearance(near, np.zeros((1, 3)), *size, 0.0, 0.0, -math.inf)
+        enough = min(YIELD_CLEARANCE, now - YIELD_APPROACH)
+        if path_clearance(near, ahead, *size, 0.0, 0.0, enough) >= enough:
+            self._yielded = max(self._yielded - 1, 0)
+            return False
+        self._yielded += 1
+        if self._yielded > self.patience:
+            self._yielded, self._around, self._track = 0, self.patience, None
+        return True
 
     def _stop(self) -> Steering:
         """Brake, and plan again from standstill."""
@@ -159,7 +204,9 @@ class Driver:
             return True
         if _apart(self._target, target) or _asks_for_more(self._target, target):
             return True
-        if not self.path.complete and self._remaining() < min(1.0, REPLAN_SHARE * self.path.length):
+        if not self.path.complete and self._remaining() <= min(
+            1.0, REPLAN_SHARE * self.path.length
+        ):
             return True
         if self._step % self.check_every:
             return False
@@ -194,13 +241,14 @@ class Driver:
         The first of these is taken that leads right: among the points alone; around barriers and
         the walls beside the gate; and, where the first misses the gate, around those walls alone,
         for a barrier may be no door. Without a gate a way around barriers must be no longer than
-        `detour` allows.
+        `detour` allows; if there is none, the robot waits for one before it takes the first.
         """
         path = plan(points, start, target, self.robot, self.planner)
         beside = NO_POINTS if target.gate is None else room_behind(target.gate, target.pose)
         closed = np.vstack((barriers, beside))
         self._heeds_barriers = False
         if self._heads_right(path, target, closed):
+            self._barred = 0
             return path
         longest = self.detour * path.length if target.gate is None else math.inf
         around = plan(np.vstack((points, closed)), start, target, self.robot, self.planner)
@@ -211,6 +259,10 @@ class Driver:
             around = plan(np.vstack((points, beside)), start, target, self.robot, self.planner)
             if self._leads(around, target, NO_POINTS):
                 return around
+        if target.gate is None and not around.complete and self._barred < self.patience:
+            self._barred += self.retry_after
+            self._heeds_barriers = True
+            return around
         return path
 
     def _leads(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
@@ -222,6 +274,10 @@ class Driver:
         if target.gate is not None and not path.crosses(*target.gate):
             return False
         return is_free(barriers, path.poses, self.robot)
+
+    def _keeps_off(self, barriers: FloatArray) -> bool:
+        """Whether the path crosses no barrier."""
+        return self.path is None or is_free(barriers, self.path.poses, self.robot)
 
     def _path_to_stop(self, points: FloatArray, pose: Pose, velocity: Twist) -> PlannedPath | None:
         """The part of the old path that braking needs; None if it is not free or missing."""

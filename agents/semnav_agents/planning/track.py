@@ -11,7 +11,7 @@ from typing import Annotated, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_agents.planning.motion import TURN
+from semnav_agents.planning.motion import REVERSE, TURN
 from semnav_agents.planning.path import PlannedPath
 from semnav_env.robots import RobotSpec
 from semnav_features.checked_fields import Bounds, check_fields
@@ -27,6 +27,7 @@ class FollowerSettings:
     Attributes:
         cruise: speed where there is room, m/s.
         creep: smallest speed, where the path is crowded or the robot is off it, m/s.
+        reverse: largest speed backwards, where a lidar at the front sees little, m/s.
         sideways: largest sideways speed, m/s.
         crowded: speed that is added for each metre of clearance, m/s.
         turn_rate: largest yaw rate on the spot and along arcs, rad/s.
@@ -43,6 +44,7 @@ class FollowerSettings:
 
     cruise: Gain = 1.1
     creep: Gain = 0.12
+    reverse: Gain = 0.35
     sideways: Gain = 0.3
     crowded: Gain = 3.0
     turn_rate: Gain = 1.0
@@ -109,6 +111,9 @@ class PathTrack:
         limit[:-1] = np.minimum(limit[:-1], rate[:-1] / np.maximum(bend, 1e-6))
         limit[1:] = np.minimum(limit[1:], rate[1:] / np.maximum(bend, 1e-6))
         for leg in self.legs:
+            if leg.kind == REVERSE:
+                span = slice(leg.first, leg.last + 1)
+                limit[span] = np.minimum(limit[span], s.reverse)
             limit[leg.last] = 0.0
         braking = s.braking * self.robot.max_acceleration
         for k in range(len(limit) - 2, -1, -1):  # backwards: brake in time for what follows

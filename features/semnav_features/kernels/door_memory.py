@@ -9,6 +9,7 @@ import numpy as np
 
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.past_views import FREE, look_back
 from semnav_features.kernels.remembered import Ends, place_for_new
 
 REMEMBERED_DOOR = np.dtype(
@@ -183,8 +184,12 @@ def doubt_unseen_doors(
     angle_increment: float,
     pose: tuple[float, float, float],
     doors: Any,
+    count: int,
+    views: Any,
 ) -> None:
     """Lower the odds of the doors that a scan looks at without having shown them.
+
+    A door that is filled where an earlier view passed was shut since, or somebody stands in it.
 
     Args:
         ranges: of the scan, metres, shape (n,).
@@ -193,15 +198,26 @@ def doubt_unseen_doors(
         pose: of the lidar in the memory's frame.
         doors: `REMEMBERED_DOOR`, changed in place; `seen` says which of them the scan showed, and
             is cleared.
+        count: of the views that were kept so far.
+        views: `past_views.PAST_VIEWS`.
     """
     for k in range(len(doors)):
         door = doors[k]
         if not door.seen:
             state = look_at(ranges, angle_min, angle_increment, pose, door)
+            if state == FILLED and _was_open(door, count, views):
+                state = UNKNOWN
             if state != UNKNOWN:
                 loss = MISSED_LOSS if state == OPEN else FILLED_LOSS
                 door.log_odds = max(door.log_odds - loss, -MAX_LOG_ODDS)
         door.seen = False
+
+
+@kernel
+def _was_open(door: Any, count: int, views: Any) -> bool:
+    """Whether an earlier view passed the middle of a door."""
+    x, y = 0.5 * (door.start_x + door.end_x), 0.5 * (door.start_y + door.end_y)
+    return bool(look_back(x, y, count, views) == FREE)
 
 
 @kernel

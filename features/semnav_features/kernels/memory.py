@@ -7,13 +7,22 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from semnav_features.frames import FloatArray, Pose
+from semnav_features.frames import FloatArray, Point, Pose
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.door_memory import door_counts, doubt_unseen_doors, remember_door
 from semnav_features.kernels.drift import PRIOR, corrected, with_sighting
 from semnav_features.kernels.lanes import WIDTH, bits, first_lanes
 from semnav_features.kernels.layout import DOORS, WALLS
 from semnav_features.kernels.pass_through import is_passed_by_beams
+from semnav_features.kernels.past_views import (
+    FREE,
+    SOLID,
+    UNSEEN,
+    VIEWS,
+    look_back,
+    look_from,
+    note_view,
+)
 from semnav_features.kernels.remembered import (
     HITS,
     Ends,
@@ -25,14 +34,14 @@ from semnav_features.kernels.remembered import (
 )
 from semnav_features.kernels.rows import put_row
 
-COUNTERS = ("walls", "doors", "scans")
+COUNTERS = ("walls", "doors", "scans", "views")
 """Fields of `MEMORY_STATE` that are zero while nothing is remembered."""
 
 MEMORY_STATE = np.dtype(
     [(name, "i8") for name in COUNTERS] + [("narrowest", "f8"), ("widest", "f8")]
 )
-"""How many entries of the walls and of the doors are used, how many scans were added, and the
-least and the largest width of a door, metres; an array of shape (1,)."""
+"""How many entries of the walls and of the doors are used, how many scans were added, how many of
+them were kept as views, and the least and the largest width of a door, metres; shape (1,)."""
 
 MIN_WALL_SIGHTINGS = 2
 """A wall counts from this many sightings on."""
@@ -56,12 +65,23 @@ SAME_LINE_OFFSET = 0.15
 SAME_LINE_GAP = 0.3
 """Largest gap along the line between two sightings of one wall, metres: nothing passes through."""
 
+MAX_MOVING_LENGTH = 1.4
+"""Length from which on a wall stands whatever earlier views tell, metres: people and leaves are
+shorter."""
+
+JAMB_DEPTH = 0.15
+"""Distance from the opening at which a jamb is looked at, metres."""
+
 MAX_END_OFFSET = SAME_LINE_OFFSET + 0.1 * SAME_LINE_GAP
 """A wall is not on a line if both of its ends lie farther than this to one side of it, metres. The
 middle of the gap, where the offset counts, may lie half the gap beyond an end, at 8 degrees."""
 
 Frame: TypeAlias = tuple[float, float, float, float]
 """Where a frame is in its parent: x, y in metres, cosine and sine of its heading."""
+
+
+Memory: TypeAlias = tuple[Any, Any, Any, Any]
+"""`SceneMemory.arrays`."""
 
 
 @kernel
@@ -73,9 +93,9 @@ def remember(
     angle_min: float,
     angle_increment: float,
     pose: tuple[float, float, float],
-    memory: tuple[Any, Any, Any],
+    memory: Memory,
 ) -> None:
-    """Add one scan to the memory.
+    """Add one scan to the memory, without what stands where earlier views passed.
 
     Args:
         walls: the scan's walls (`layout.WALL`), lidar frame.
@@ -87,22 +107,30 @@ def remember(
         pose: of the lidar in the memory's frame.
         memory: `SceneMemory.arrays`, changed in place.
     """
-    known_walls, known_doors, state = memory
-    used, frame = state[0], frame_of(pose)
+    known_walls, known_doors, state, views = memory
+    used, seen, frame = state[0], views[0], frame_of(pose)
     for i in range(counts[WALLS]):
-        used.walls = remember_wall(placed(walls[i], frame), known_walls, used.walls)
+        wall = placed(walls[i], frame)
+        if stands(wall, used.views, seen):
+            used.walls = remember_wall(wall, known_walls, used.walls)
     for i in range(counts[DOORS]):
-        door = doors[i]
-        used.doors = remember_door(placed(door, frame), door.confidence, known_doors, used.doors)
-    doubt_unseen_doors(ranges, angle_min, angle_increment, pose, known_doors[: used.doors])
+        door = placed(doors[i], frame)
+        if has_standing_jambs(door, used.views, seen):
+            confidence = doors[i].confidence
+            used.doors = remember_door(door, confidence, known_doors, used.doors)
+    doubt_unseen_doors(
+        ranges, angle_min, angle_increment, pose, known_doors[: used.doors], used.views, seen
+    )
     first = used.scans % WALL_CHECK_PERIOD  # each scan looks at another eighth of the walls
     for k in range(first, used.walls, WALL_CHECK_PERIOD):
         doubt_passed_wall(ranges, angle_min, angle_increment, pose, known_walls, k)
+    if note_view(ranges, angle_min, angle_increment, pose, used, seen):
+        forget_passed(memory)
     used.scans += 1
 
 
 @kernel
-def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) -> Pose:
+def relocate(walls: Any, counts: Any, pose: Pose, memory: Memory) -> Pose:
     """The pose of the lidar, corrected by the remembered walls that the scan shows again.
 
     Args:
@@ -111,11 +139,84 @@ def relocate(walls: Any, counts: Any, pose: Pose, memory: tuple[Any, Any, Any]) 
         pose: of the lidar by odometry, in the memory's frame.
         memory: as in `remember`.
     """
-    known, _, state = memory
+    known, _, state, _ = memory
     used, sums, frame = state[0].walls, PRIOR, frame_of(pose)
     for i in range(counts[WALLS]):
         sums = with_sighting(placed(walls[i], frame), known, used, pose, sums)
     return corrected(pose, sums)
+
+
+@kernel
+def stands(wall: Ends, count: int, views: Any) -> bool:
+    """Whether earlier views leave room for a wall: some of it stood there, or it is long.
+
+    Args:
+        wall: in the memory's frame.
+        count: of the views that were kept so far.
+        views: `PAST_VIEWS`.
+    """
+    x, y, dx, dy = wall[0], wall[1], wall[2] - wall[0], wall[3] - wall[1]
+    if dx * dx + dy * dy > MAX_MOVING_LENGTH**2:
+        return True
+    for share in (0.5, 0.2, 0.8):
+        if may_stand(look_back(x + share * dx, y + share * dy, count, views)):
+            return True
+    return False
+
+
+@kernel
+def has_standing_jambs(door: Ends, count: int, views: Any) -> bool:
+    """Whether earlier views leave room for both jambs of a door; see `stands`."""
+    first, last = jambs_of(door)
+    stood = may_stand(look_back(first[0], first[1], count, views))
+    return bool(stood and may_stand(look_back(last[0], last[1], count, views)))
+
+
+@kernel
+def may_stand(told: int) -> bool:
+    """Whether something that is seen now may have stood there before.
+
+    What was hidden before may have come with what hid it: a person who walks away. What did not
+    return beams before may be a person before a far wall.
+    """
+    return told in (SOLID, UNSEEN)
+
+
+@kernel
+def jambs_of(door: Ends) -> tuple[Point, Point]:
+    """A point in either jamb of a door."""
+    x1, y1, x2, y2 = door
+    share = JAMB_DEPTH / math.hypot(x2 - x1, y2 - y1)
+    dx, dy = share * (x2 - x1), share * (y2 - y1)
+    return (x1 - dx, y1 - dy), (x2 + dx, y2 + dy)
+
+
+@kernel
+def forget_passed(memory: Memory) -> None:
+    """Forget short walls, and doors, where the newest view passes: they moved on."""
+    walls, doors, state, views = memory
+    used, seen = state[0], views[0]
+    newest = (used.views - 1) % VIEWS
+    for k in range(used.walls):
+        x, y, x2, y2 = ends_of_wall(walls, k)
+        dx, dy = x2 - x, y2 - y
+        if walls[HITS, k] == 0.0 or dx * dx + dy * dy > MAX_MOVING_LENGTH**2:
+            continue
+        passed = True
+        for share in (0.5, 0.2, 0.8):
+            passed &= look_from(x + share * dx, y + share * dy, newest, seen) == FREE
+        if passed:
+            walls[HITS, k] = 0.0
+    for k in range(used.doors):
+        door = doors[k]
+        if door.log_odds <= 0.0:
+            continue
+        first, last = jambs_of((door.start_x, door.start_y, door.end_x, door.end_y))
+        if (
+            look_from(first[0], first[1], newest, seen) == FREE
+            or look_from(last[0], last[1], newest, seen) == FREE
+        ):
+            door.log_odds = 0.0
 
 
 @kernel
@@ -145,8 +246,9 @@ def doubt_passed_wall(
 
 
 @kernel
-def how_many_count(walls: FloatArray, doors: Any, state: Any) -> tuple[int, int]:
+def how_many_count(memory: Memory) -> tuple[int, int]:
     """How many of the remembered walls and doors count."""
+    walls, doors, state, _ = memory
     used = state[0]
     wall_total, door_total = 0, 0
     for k in range(used.walls):
@@ -157,15 +259,14 @@ def how_many_count(walls: FloatArray, doors: Any, state: Any) -> tuple[int, int]
 
 
 @kernel
-def what_counts(
-    walls: FloatArray, doors: Any, state: Any
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+def what_counts(memory: Memory) -> tuple[FloatArray, FloatArray, FloatArray]:
     """The remembered walls and doors that count.
 
     Returns:
         Ends of the walls, shape (n, 4), and of the doors, shape (m, 4), metres; and of each door
         the log-odds that it is one and how often it was seen, shape (m, 2).
     """
+    walls, doors, state, _ = memory
     used = state[0]
     wall_ends, door_ends = np.empty((used.walls, 4)), np.empty((used.doors, 4))
     beliefs = np.empty((used.doors, 2))

@@ -40,7 +40,7 @@ def is_look_due(estimate: Any, remembered: Any) -> bool:
     first = estimate.scan == FIRST_COUNTING_SCAN
     if since % DOOR_CHECK_PERIOD and not first:
         return False
-    walls, doors = how_many_count(*remembered)
+    walls, doors = how_many_count(remembered)
     differs = walls != estimate.look_walls or moved > LEAST_TRAVEL**2
     rested = since >= REST_CHECK_SCANS or first
     return bool(doors != estimate.look_doors or (differs and rested))

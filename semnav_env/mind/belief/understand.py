@@ -124,7 +124,7 @@ def note_look(senses: Senses) -> None:
     for i in range(3):
         estimate.look_pose[i] = estimate.pose[i]
     estimate.look_scan = estimate.scan
-    estimate.look_walls, estimate.look_doors = how_many_count(*senses.remembered)
+    estimate.look_walls, estimate.look_doors = how_many_count(senses.remembered)
 
 
 @kernel

@@ -49,8 +49,7 @@ def write_command_row(row: NDArray[np.float32], senses: Senses) -> None:
     believed = senses.estimate[0].pose
     pose, memory = (believed[0], believed[1], believed[2]), row[split:]
     memory[:] = 0.0
-    known_walls, known_doors, state = senses.remembered
-    walls, doors, _ = what_counts(known_walls, known_doors, state)
+    walls, doors, _ = what_counts(senses.remembered)
     pieces, used = senses.bumps
     _write_walls(memory, walls, pose)
     _write_corridor(memory, np.concatenate((walls, pieces[: used[0]])), doors, pose)

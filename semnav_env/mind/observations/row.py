@@ -59,7 +59,7 @@ def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     pose = (believed.pose[0], believed.pose[1], believed.pose[2])
     if believed.observes_features:
         _write_features(row, senses.features[0], senses.mount)
-        _, doors, state = senses.remembered
+        _, doors, state, _ = senses.remembered
         _write_remembered(row, doors, state[0], pose)
         _write_bumps(row, senses.bumps, pose)
         _keep_within(row[:_REMEMBERED], FEATURE_BOUND)

@@ -1,0 +1,84 @@
+"""Tells the hits on what moves, people and leaves of doors, from those on what stands."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.memory import MEMORY_STATE
+from semnav_features.kernels.past_views import FREE, PAST_VIEWS, look_back, note_view
+
+MAX_DISTANCE = 5.0
+"""Distance beyond which nothing that moves matters to a robot, metres."""
+
+MIN_RUN = 0.15
+"""Least length of neighbouring hits in free places that are something that moves, metres: single
+ones are noise at the edges of what stands."""
+
+
+class MovingHits:
+    """Compares each scan with how far earlier scans could see, see `kernels.past_views`."""
+
+    def __init__(self) -> None:
+        self._state, self._views = np.zeros(1, MEMORY_STATE), np.zeros(1, PAST_VIEWS)
+
+    def reset(self) -> None:
+        """Forget everything."""
+        self._state["views"] = self._state["scans"] = 0
+
+    def update(
+        self, lidar_pose: Pose, ranges: FloatArray, directions: FloatArray, range_max: float
+    ) -> NDArray[np.bool_]:
+        """Add a scan, and say which of its beams ended where an earlier view passed.
+
+        Args:
+            lidar_pose: odometry frame.
+            ranges: metres, shape (n,); `range_max` or more is no return.
+            directions: unit vectors of the beams, evenly spaced counter-clockwise, shape (n, 2).
+            range_max: metres.
+
+        Returns:
+            Shape (n,).
+        """
+        plain = np.where(ranges < range_max, ranges, np.inf).astype(np.float64)
+        start = float(np.arctan2(directions[0, 1], directions[0, 0]))
+        x, y = directions[:2].T
+        step = float(np.arctan2(x[0] * y[1] - y[0] * x[1], x[0] * x[1] + y[0] * y[1]))
+        moving = np.zeros(len(plain), np.bool_)
+        mark_moving(plain, start, step, lidar_pose, self._state[0], self._views[0], moving)
+        return moving
+
+
+@kernel
+def mark_moving(
+    ranges: FloatArray,
+    start: float,
+    step: float,
+    pose: Pose,
+    used: Any,
+    views: Any,
+    moving: NDArray[np.bool_],
+) -> None:
+    """Write which beams end on something that moves, and keep the scan as a view if one is due."""
+    first, length, last_x, last_y = -1, 0.0, 0.0, 0.0
+    for i in range(len(ranges) + 1):
+        is_free, x, y = False, 0.0, 0.0
+        if i < len(ranges) and 0.05 < ranges[i] < MAX_DISTANCE:
+            angle = pose[2] + start + i * step
+            x, y = pose[0] + ranges[i] * np.cos(angle), pose[1] + ranges[i] * np.sin(angle)
+            is_free = look_back(x, y, used.views, views) == FREE
+        if is_free:
+            if first < 0:
+                first, length = i, 0.0
+            else:
+                length += np.hypot(x - last_x, y - last_y)
+            last_x, last_y = x, y
+        elif first >= 0:
+            moving[first:i] = length >= MIN_RUN
+            first = -1
+    note_view(ranges, start, step, pose, used, views)
+    used.scans += 1

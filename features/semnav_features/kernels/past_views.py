@@ -1,0 +1,142 @@
+"""Past views: how far the scanner could see from places where it was a moment ago.
+
+What stands where an earlier view passed is neither wall nor jamb: it is a person, or the leaf of a
+door. So is what stood in the way of a view and does not stand there now. A view is kept for each
+metre or so, and the newest is widened while the robot stands.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from semnav_features.frames import FloatArray, Pose
+from semnav_features.kernels.compiling import kernel
+
+VIEWS = 4
+"""Number of views that are kept; a new one replaces the oldest."""
+
+SECTORS = 720
+"""Sectors of a full turn into which a view is divided, half a degree each."""
+
+SECTOR_ANGLE = 2.0 * math.pi / SECTORS
+
+PAST_VIEWS = np.dtype([("places", "f8", (VIEWS, 2)), ("ranges", "f4", (VIEWS, SECTORS))])
+"""Views; shape (1,). Where the lidar was, metres, and the shortest range in each sector, metres: 0
+where no beam was, infinite where none came back. Places and directions are in the frame of the
+memory."""
+
+VIEW_SPACING = 0.7
+"""Distance driven after which another view is kept, metres."""
+
+STANDING_DISTANCE = 0.03
+"""Distance from the place of a view within which scans widen it, metres."""
+
+VIEW_PERIOD = 4
+"""A robot that stands widens its view at each fourth scan: that spreads the work over scans."""
+
+FREE_DEPTH = 0.3
+"""Distance behind a place that a view must reach for the place to have been free, metres."""
+
+FREE_HALF_WIDTH = 0.06
+"""Half the width of what a view must reach past, around the place, metres; at least the sectors on
+either side count as well. So neither drift nor noise opens the edge of a wall."""
+
+UNSEEN, HIDDEN, NO_RETURN, SOLID, FREE = range(5)
+"""What views tell of a place, the stronger the later: no beam went there; something stood before
+it; beams went there and none came back, so it was free or did not reflect; a beam ended there; the
+beams passed it, with some room around it."""
+
+
+@kernel
+def note_view(
+    ranges: FloatArray, angle_min: float, angle_increment: float, pose: Pose, used: Any, views: Any
+) -> bool:
+    """Keep a scan as a view if the lidar has moved on, or widen the newest view if it stands.
+
+    Returns:
+        Whether it did either.
+
+    Args:
+        ranges: of the scan, metres, shape (n,); +inf for no return.
+        angle_min: of the scan, radians.
+        angle_increment: of the scan, radians.
+        pose: of the lidar in the memory's frame.
+        used: an entry of `memory.MEMORY_STATE`: `views` counts the views that were kept so far.
+        views: `PAST_VIEWS`, changed in place.
+    """
+    newest = (used.views - 1) % VIEWS
+    moved = math.inf
+    if used.views > 0:
+        moved = math.hypot(pose[0] - views.places[newest, 0], pose[1] - views.places[newest, 1])
+    if moved >= VIEW_SPACING:
+        newest = used.views % VIEWS
+        used.views += 1
+        views.places[newest, 0], views.places[newest, 1] = pose[0], pose[1]
+        views.ranges[newest, :] = 0.0
+    elif moved > STANDING_DISTANCE or used.scans % VIEW_PERIOD != 0:
+        return False
+    _widen(ranges, pose[2] + angle_min, angle_increment, views.ranges[newest])
+    return True
+
+
+@kernel
+def _widen(ranges: FloatArray, start: float, increment: float, view: FloatArray) -> None:
+    """Let a view reach as far as a scan does, where the scan reaches farther.
+
+    The shortest of the beams in a sector counts; each beam covers the sectors up to halfway to its
+    neighbours.
+    """
+    sector, least = -1, math.inf
+    for i in range(len(ranges)):
+        first = math.floor((start + (i - 0.5) * increment) / SECTOR_ANGLE)
+        last = math.floor((start + (i + 0.5) * increment) / SECTOR_ANGLE)
+        if i == 0:
+            sector = first
+        for k in range(first, last + 1):
+            if k > sector:
+                view[sector % SECTORS] = max(view[sector % SECTORS], least)
+                sector, least = k, math.inf
+            least = min(least, ranges[i] if ranges[i] > 0.0 else 0.0)  # NaN is no view
+    if sector >= 0:
+        view[sector % SECTORS] = max(view[sector % SECTORS], least)
+
+
+@kernel
+def look_back(x: float, y: float, count: int, views: Any) -> int:
+    """The strongest of what earlier views tell of a place, see `FREE`.
+
+    Args:
+        x: of the place in the memory's frame, metres.
+        y: the same.
+        count: of the views that were kept so far.
+        views: `PAST_VIEWS`.
+    """
+    found = UNSEEN
+    for v in range(min(count, VIEWS)):
+        found = max(found, look_from(x, y, v, views))
+        if found == FREE:
+            break
+    return found
+
+
+@kernel
+def look_from(x: float, y: float, v: int, views: Any) -> int:
+    """What view `v` tells of a place; see `look_back`."""
+    dx, dy = x - views.places[v, 0], y - views.places[v, 1]
+    distance, ranges = math.hypot(dx, dy), views.ranges[v]
+    sector = math.floor(math.atan2(dy, dx) / SECTOR_ANGLE)
+    if ranges[sector % SECTORS] == 0.0:
+        return UNSEEN
+    beside = 1 + int(FREE_HALF_WIDTH / (SECTOR_ANGLE * max(distance, FREE_HALF_WIDTH)))
+    passed, ended, farthest = True, False, 0.0
+    for k in range(sector - beside, sector + beside + 1):
+        reach = ranges[k % SECTORS]
+        passed &= reach > distance + FREE_DEPTH
+        ended |= abs(reach - distance) <= FREE_DEPTH
+        farthest = max(farthest, reach)
+    if passed:
+        return FREE if farthest < math.inf else NO_RETURN
+    return SOLID if ended else HIDDEN
