@@ -20,7 +20,7 @@ SEMNAV = CommandTable(
             "approach": "plan the pose before a door from which a robot can pass it",
             "describe": "say the command that leads to a door or a room",
             "demonstrate": "write what an agent sees and does as a dataset",
-            "episodes": "list, check and generate the frozen episodes, import others",
+            "episodes": "list, check and generate frozen episodes, import others, buildings",
             "evaluate": "measure an agent on a suite of commands",
             "evaluate language": "count how much of people's commands is understood",
             "leaderboard": "make a table of agents from kept results",

@@ -16,6 +16,7 @@ from semnav_features.kernels.layout import DOORS, WALLS
 from semnav_features.kernels.pass_through import is_passed_by_beams
 from semnav_features.kernels.past_views import (
     FREE,
+    HIDDEN,
     SOLID,
     UNSEEN,
     VIEWS,
@@ -166,10 +167,17 @@ def stands(wall: Ends, count: int, views: Any) -> bool:
 
 @kernel
 def has_standing_jambs(door: Ends, count: int, views: Any) -> bool:
-    """Whether earlier views leave room for both jambs of a door; see `stands`."""
+    """Whether earlier views leave room for both jambs of a door.
+
+    Unlike a short wall, a jamb that was hidden until now counts: often a leaf hid it.
+    """
     first, last = jambs_of(door)
-    stood = may_stand(look_back(first[0], first[1], count, views))
-    return bool(stood and may_stand(look_back(last[0], last[1], count, views)))
+    told_first = look_back(first[0], first[1], count, views)
+    told_last = look_back(last[0], last[1], count, views)
+    return bool(
+        (may_stand(told_first) or told_first == HIDDEN)
+        and (may_stand(told_last) or told_last == HIDDEN)
+    )
 
 
 @kernel

@@ -120,7 +120,7 @@ def test_a_robot_finds_the_door_it_came_by(robot: str) -> None:
         "and go out the door you came in by",
         "go through the second door on the right, turn around and go to the door you came in by",
     ):
-        observation, info = env.reset(seed=3, options={"command": text})
+        observation, info = env.reset(seed=3, options={"command": read(text)})
         for step in steps(env, agent, observation, info):
             info = step.info
         assert info["is_success"], (text, info["verdicts"])
