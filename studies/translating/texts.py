@@ -121,11 +121,12 @@ def _recounted(value: Any, rng: np.random.Generator) -> Any:
 
 def _changed(value: Any, change: Callable[[Any], Any]) -> Any:
     """A clause or a part of one with each of its fields changed; other values as they are."""
-    if not isinstance(value, Spoken):
-        return value
-    return replace(
-        value, **{name: change(getattr(value, name)) for name in field_names(type(value))}
-    )
+    return _with_parts(value, change) if isinstance(value, Spoken) else value
+
+
+def _with_parts(value: Any, change: Callable[[Any], Any]) -> Any:
+    parts = {name: change(getattr(value, name)) for name in field_names(type(value))}
+    return replace(value, **parts)
 
 
 def disturbed(
