@@ -33,7 +33,7 @@ class Arguments:
         corpora: files of sentences with their meanings (.jsonl, see docs/meanings.md), or of plain
             sentences, one a line; by default those in `studies/corpora`, in a checkout.
         language: force a language; by default each text is recognised.
-        grammar: judge the grammar alone, without the learned second opinion.
+        grammar: judge the grammar alone, without translator and ranker.
         show: print the sentences with this outcome.
         json: print JSON.
     """

@@ -28,8 +28,8 @@ class Interpretation:
         text: as it was given.
         readings: every command that it can mean, at least one.
         language: its language.
-        by: the interpreter: "grammar" or "model".
-        likeness: similarity to a text that the grammar understands, 0 to 1; 1 for the grammar.
+        by: what found the command: "grammar", "translator" or "model".
+        likeness: probability that the command is meant, 0 to 1; 1 where it is not estimated.
     """
 
     text: str

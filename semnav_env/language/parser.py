@@ -32,19 +32,10 @@ def read(
     rooms: Sequence[str] = (),
     ask: Ask | None = None,
 ) -> Command:
-    """The command that a text means by the grammar alone; see `semnav_env.language.parse`.
+    """The command that a text means by the grammar alone.
 
-    Args:
-        text: for example "go down the hallway, turn left and go in the first door on the right";
-            docs/language.md lists what is understood.
-        language: "en", "de" or a `Language`; by default it is recognised.
-        rooms: the names of the rooms that there are; empty if they are not known. If given, only
-            these are understood, and they need no quotation marks.
-        ask: asks a person what is meant where the text leaves it open, such as `input`. Without it
-            that is an error.
-
-    Returns:
-        The command; `read(command.say(language), language) == command`.
+    The arguments are those of `semnav_env.language.parse`; `read(command.say(language), language)`
+    is the command again.
 
     Raises:
         CommandError: some of the text is not understood; nothing is guessed or left out.

@@ -115,7 +115,7 @@ def test_a_condition_and_what_depends_on_it_are_counted_from_one_place() -> None
     assert len(readings(otherwise)) == 2
 
 
-def test_the_second_opinion_answers_conditions_that_are_counted_on() -> None:
+def test_parse_answers_conditions_that_are_counted_on() -> None:
     for code in ("en", "de"):
         for condition, done in product(CONDITION[code][:3], DONE[code][:3]):
             with suppress(CommandError):

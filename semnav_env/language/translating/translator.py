@@ -59,17 +59,6 @@ class TranslatedText:
     encoded: Array
     network: TranslatorNetwork
 
-    @property
-    def words(self) -> tuple[str, ...]:
-        """The words without values, sides and rooms."""
-        marked = zip(self.plain.words, self.plain.marks, strict=True)
-        return tuple(word for word, mark in marked if not mark)
-
-    def has_sides_of(self, command: Command) -> bool:
-        """Whether the text has every side, left or right, that a command has."""
-        said = {side.value for side in self.plain.sides}
-        return {each for each in ("left", "right") if each in str(command).split()} <= said
-
     def likeness_of(self, command: Command) -> float | None:
         """Probability of a command; None if the network has no symbols for it."""
         try:
