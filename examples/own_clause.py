@@ -11,7 +11,7 @@ from typing import ClassVar
 from semnav_agents import make_agent
 from semnav_agents.base import steps
 from semnav_env.env import SemNavEnv
-from semnav_env.language import Clause, Command, Follow, GrammarInterpreter, Interpretation
+from semnav_env.language import Clause, Command, Follow, Interpretation, LearnedInterpreter
 from semnav_env.language.declarations import Form, Multiples, form
 from semnav_env.language.languages import english
 from semnav_env.mind.grounding import Goal, GroundedClause, ReachGoal, Situation
@@ -42,15 +42,15 @@ class StepAside(GroundedClause):
 
 
 class WithStepAside:
-    """Understands "step aside by N metres", and leaves everything else to the grammar."""
+    """Understands "step aside by N metres", and leaves everything else to the usual reader."""
 
     def interpret(self, text: str) -> Interpretation:
         """What a text means."""
         asked = re.fullmatch(r"step aside by (\d) metres?", text)
         if asked is None:
-            return GrammarInterpreter().interpret(text)
+            return LearnedInterpreter().interpret(text)
         command = Command((StepAside(int(asked[1])),))
-        return Interpretation(text, (command,), english(), "grammar")
+        return Interpretation(text, command, english(), "own words")
 
 
 def main() -> None:

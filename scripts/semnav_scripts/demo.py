@@ -15,7 +15,7 @@ from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.language import SearchHouse, parse
 from semnav_env.language.language import Language
-from semnav_env.language.speech.recognition import language_of_text
+from semnav_env.language.vocabulary.recognition import language_of_text
 from semnav_env.rendering.film import STEPS_PER_FRAME, Film
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.world.dynamics.social import for_json

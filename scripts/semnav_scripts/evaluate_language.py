@@ -11,7 +11,7 @@ from typing import Literal
 
 from tyro.conf import Positional
 
-from semnav_env.language import parse, read
+from semnav_env.language import Command, LearnedInterpreter
 from semnav_env.language.corpora import (
     Count,
     ParseOutcome,
@@ -19,7 +19,7 @@ from semnav_env.language.corpora import (
     load_sentences,
     verdicts,
 )
-from semnav_env.language.corpora.measure import Understand
+from semnav_env.language.translating.network import TRAINED_FOLDER
 
 CORPORA = Path("studies/corpora")
 """Folder of the sets of sentences, from the root of a checkout."""
@@ -33,14 +33,14 @@ class Arguments:
         corpora: files of sentences with their meanings (.jsonl, see docs/meanings.md), or of plain
             sentences, one a line; by default those in `studies/corpora`, in a checkout.
         language: force a language; by default each text is recognised.
-        grammar: judge the grammar alone, without translator and ranker.
+        translator: folder of the translator and its ranker; by default those of the package.
         show: print the sentences with this outcome.
         json: print JSON.
     """
 
     corpora: Positional[tuple[Path, ...]] = ()
     language: str | None = None
-    grammar: bool = False
+    translator: Path = TRAINED_FOLDER
     show: Literal["understood", "asked", "refused", "misread"] | None = None
     json: bool = False
 
@@ -49,7 +49,7 @@ class Arguments:
         found = [
             verdict
             for path in self._files()
-            for verdict in verdicts(load_sentences(path), self.language, self._understand())
+            for verdict in verdicts(load_sentences(path), self._understood, self.language)
         ]
         counts: defaultdict[tuple[str, str], Count] = defaultdict(Count)
         for verdict in found:
@@ -71,8 +71,8 @@ class Arguments:
             )
         return found
 
-    def _understand(self) -> Understand:
-        return read if self.grammar else parse
+    def _understood(self, text: str, language: str | None, rooms: Sequence[str]) -> Command:
+        return LearnedInterpreter(language, rooms, folder=self.translator).interpret(text).command
 
 
 def _is_shown(verdict: SentenceVerdict, show: str) -> bool:

@@ -18,7 +18,7 @@ from semnav_env.language import (
     parse,
 )
 from semnav_env.language.language import Language
-from semnav_env.language.speech.recognition import language_of_text
+from semnav_env.language.vocabulary.recognition import language_of_text
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.mind.grounding.goal import door_of
 from semnav_env.robots import robot_spec

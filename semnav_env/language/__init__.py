@@ -41,20 +41,19 @@ from semnav_env.language.tokens import CLAUSE_FEATURES, token_mask, token_space
 from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from semnav_env.language.canonical import read
     from semnav_env.language.encoding import decode, encode
     from semnav_env.language.errors import CommandError
     from semnav_env.language.interpreters import (
-        GrammarInterpreter,
         Interpretation,
         Interpreter,
         ModelInterpreter,
     )
-    from semnav_env.language.parser import correct, read, readings
     from semnav_env.language.program import from_program, to_program
     from semnav_env.language.question import AmbiguousCommandError, Ask, Question
     from semnav_env.language.rewording import paraphrases
     from semnav_env.language.sampling import sample_clause, sample_command
-    from semnav_env.language.translating.interpreter import LearnedInterpreter, parse
+    from semnav_env.language.translating.interpreter import LearnedInterpreter, correct, parse
 
 __all__ = [
     "CLAUSE_FEATURES",
@@ -79,7 +78,6 @@ __all__ = [
     "GoBack",
     "GoToDoor",
     "GoToRoom",
-    "GrammarInterpreter",
     "IfThere",
     "Interpretation",
     "Interpreter",
@@ -106,7 +104,6 @@ __all__ = [
     "paraphrases",
     "parse",
     "read",
-    "readings",
     "sample_clause",
     "sample_command",
     "to_program",
@@ -117,19 +114,18 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
+        ".canonical": ("read",),
         ".encoding": ("decode", "encode"),
         ".errors": ("CommandError",),
         ".interpreters": (
-            "GrammarInterpreter",
             "Interpretation",
             "Interpreter",
             "ModelInterpreter",
         ),
-        ".parser": ("correct", "read", "readings"),
         ".program": ("from_program", "to_program"),
         ".question": ("AmbiguousCommandError", "Ask", "Question"),
         ".rewording": ("paraphrases",),
         ".sampling": ("sample_clause", "sample_command"),
-        ".translating.interpreter": ("LearnedInterpreter", "parse"),
+        ".translating.interpreter": ("LearnedInterpreter", "correct", "parse"),
     },
 )

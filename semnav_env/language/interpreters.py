@@ -1,4 +1,4 @@
-"""Interpreters of a text: the grammar, or a model of the user's own.
+"""Interpreters of a text: what a user of the package may put in the place of `parse`.
 
 Each gives commands of the same type. So what it understood is grounded by the same rules, is
 refused for the same reasons, and can be said in canonical words for a person to check.
@@ -15,42 +15,33 @@ from semnav_env.language.command import Command
 from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
+from semnav_env.language.named_rooms import check_rooms
 from semnav_env.language.normalise import normalise
-from semnav_env.language.parser import check_rooms, only_one, readings
 from semnav_env.language.program import from_program
 
 
 @dataclass(frozen=True)
 class Interpretation:
-    """The commands that an interpreter took a text for.
+    """The command that an interpreter took a text for.
 
     Attributes:
         text: as it was given.
-        readings: every command that it can mean, at least one.
+        command: what it means.
         language: its language.
-        by: what found the command: "grammar", "translator" or "model".
+        by: what found the command: "stop", "canonical words", "translator" or "model".
         likeness: probability that the command is meant, 0 to 1; 1 where it is not estimated.
     """
 
     text: str
-    readings: tuple[Command, ...]
+    command: Command
     language: Language = field(repr=False)
     by: str
     likeness: float = 1.0
 
     @property
-    def command(self) -> Command:
-        """The one reading, with what goes without saying; see `defaults`.
-
-        Raises:
-            AmbiguousCommandError: there are several.
-        """
-        return only_one(self.readings, self.text, self.language, ())
-
-    @property
     def echo(self) -> str:
-        """Each reading in canonical words of the text's language, one a line."""
-        return "\n".join(command.say(self.language) for command in self.readings)
+        """The command in canonical words of the text's language."""
+        return self.command.say(self.language)
 
 
 class Interpreter(Protocol):
@@ -60,27 +51,10 @@ class Interpreter(Protocol):
         """What a text means.
 
         Raises:
+            AmbiguousCommandError: it is open which of several commands is meant.
             CommandError: it is not understood.
         """
         ...
-
-
-@dataclass(frozen=True)
-class GrammarInterpreter:
-    """Understands exactly the texts that the grammar of a language allows.
-
-    Attributes:
-        language: code, or a loaded language.
-        rooms: names of the rooms of the floor plan; none if they are not known.
-    """
-
-    language: str | Language = "en"
-    rooms: Sequence[str] = ()
-
-    def interpret(self, text: str) -> Interpretation:
-        """Every reading of a text; see `semnav_env.language.readings`."""
-        found = readings(text, self.language, self.rooms)
-        return Interpretation(text, found, language_of(self.language), "grammar")
 
 
 @dataclass(frozen=True)
@@ -111,7 +85,7 @@ class ModelInterpreter:
         normalise(text, spoken)
         command = _program(self.ask(text), text)
         check_rooms(command, text, self.rooms)
-        return Interpretation(text, (command,), spoken, "model")
+        return Interpretation(text, command, spoken, "model")
 
 
 def _program(answer: object, text: str) -> Command:

@@ -44,34 +44,18 @@ class Question:
         readings: the commands that the text can mean, the likelier first. One alone is doubtful.
         language: of the speaker.
         read: reads an answer that is a whole command; without it such answers settle nothing.
-        misspelt: words that a slip of the pen was taken for; empty if there is none.
-        unread: words that were left out because they are not understood; empty if there are none.
     """
 
     readings: tuple[Command, ...]
     language: Language = field(repr=False)
     read: Read | None = field(default=None, repr=False, compare=False)
-    misspelt: str = ""
-    unread: str = ""
 
     @cached_property
     def text(self) -> str:
         """What is asked, such as "Through it, or only up to it?"."""
-        say = self.language.say
-        if self.names_both:
-            asked = self._of_two
-        elif self.misspelt and len(self.readings) == 1:
-            asked = say("question_misspelt", word=self.misspelt)
-        elif self.unread and len(self.readings) == 1:
-            asked = say("question_unread", word=self.unread)
-        else:
-            asked = say("question_one", choice=self.choices[0].name)
+        one = self.language.say("question_one", choice=self.choices[0].name)
+        asked = self._of_two if self.names_both else one
         return asked[0].upper() + asked[1:]
-
-    @property
-    def is_plain(self) -> bool:
-        """Whether it only asks which reading is meant, with all words understood."""
-        return not self.misspelt and not self.unread
 
     @cached_property
     def names_both(self) -> bool:
@@ -168,7 +152,6 @@ class AmbiguousCommandError(CommandError):
         super().__init__(f"{question.text} ({shown})", text[:SHOWN])
         self.args = (text, question)
         self.question = question
-        self.suggestion = question.misspelt or None
 
     @property
     def summary(self) -> str:

@@ -10,10 +10,8 @@ import numpy as np
 from semnav_env.language.clauses import Turn
 from semnav_env.language.command import Command, Link, links_of
 from semnav_env.language.declarations import field_names
-from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
-from semnav_env.language.parser import readings
 from semnav_env.language.sampling import check_generator
 
 TEXTS_PER_PARAPHRASE = 20
@@ -58,15 +56,13 @@ class _VariedLanguage(Language):
 
     def _says_verb(self, text: str) -> bool:
         """Whether a clause has a verb: "turn left at the corner", not "left at the corner"."""
-        from semnav_env.language.speech.items import ItemKind  # here, as these are large
-        from semnav_env.language.speech.lexicon import lexicon_of
-        from semnav_env.language.speech.phrases import plain_words
-        from semnav_env.language.speech.reader import ItemReader
+        from semnav_env.language.vocabulary.lexicon import lexicon_of  # here, as these are large
+        from semnav_env.language.vocabulary.phrases import plain_words
 
         spoken = language_of(self.code)
-        words = plain_words(text, spoken)
-        items = ItemReader(words, lexicon_of(spoken), {}).items()
-        return any(item.kind in (ItemKind.VERB, ItemKind.AROUND) for item in items)
+        words, lexicon = plain_words(text, spoken), lexicon_of(spoken)
+        kinds = (kind for at in range(len(words)) for kind, _, _ in lexicon.matches(words, at))
+        return any(kind in ("verb", "around", "around alone") for kind in kinds)
 
     def _any_of(self, usual: str, key: str) -> str:
         choices = (usual, *self.wordings.get(key, ()))
@@ -76,7 +72,7 @@ class _VariedLanguage(Language):
 def paraphrases(
     command: Command, rng: np.random.Generator, n: int, language: str | Language = "en"
 ) -> tuple[str, ...]:
-    """Texts in other words for a command; `parse(text, language) == command` for each of them.
+    """Texts in other words for a command.
 
     Args:
         command: what the texts mean.
@@ -104,13 +100,6 @@ def paraphrases(
         if len(found) == n:
             break
         text = varied.command(command)
-        if text and text != usual and text not in found and _means(text, command, spoken):
+        if text and text != usual:
             found[text] = None
     return tuple(found)
-
-
-def _means(text: str, command: Command, language: Language) -> bool:
-    try:
-        return readings(text, language) == (command,)
-    except CommandError:
-        return False

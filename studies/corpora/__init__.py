@@ -1,40 +1,29 @@
-"""Sets of sentences with their meanings, on which the readers of language are measured."""
+"""Sets of sentences with their meanings, from which the reader learns or on which it is measured.
+
+A file is one author in one language: `07_german.jsonl`.
+"""
 
 from __future__ import annotations
 
-from itertools import product
 from pathlib import Path
 
-TUNED = ("first", "second", "third", "fourth", "fifth", "sixth")
-"""Authors on whom the grammar was tuned; the translator learned from them, too."""
-
-LEARNED = (
-    *("eleventh", "twelfth", "thirteenth", "fourteenth"),
-    *("fifteenth", "sixteenth", "seventeenth", "eighteenth"),
-)
-"""Authors from whom translator and ranker learned, and on whom the grammar was not tuned."""
-
-HELD_OUT = ("seventh", "eighth", "ninth", "tenth")
-"""Authors on whom nothing is tuned."""
-
-
-def development_corpora() -> tuple[Path, ...]:
-    """The files of the authors on whom the grammar was tuned."""
-    return corpora_of(TUNED)
+FOLDER = Path(__file__).parent
 
 
 def learned_corpora() -> tuple[Path, ...]:
-    """The files of the authors from whom only translator and ranker learned."""
-    return corpora_of(LEARNED)
+    """The files of the authors from whom translator and ranker learn."""
+    return _files("learned")
 
 
 def held_out_corpora() -> tuple[Path, ...]:
-    """The files of authors on whom nothing was tuned."""
-    return corpora_of(HELD_OUT)
+    """The files of authors on whom nothing is tuned."""
+    return _files("held_out")
 
 
-def corpora_of(authors: tuple[str, ...]) -> tuple[Path, ...]:
-    """The two files of each author; the names of the first author's begin with the language."""
-    sets = product(authors, ("english", "german"))
-    names = (language if author == "first" else f"{author}_{language}" for author, language in sets)
-    return tuple(Path(__file__).parent / f"{name}.jsonl" for name in names)
+def author_of(corpus: Path) -> int:
+    """The number of the author of a file."""
+    return int(corpus.stem.partition("_")[0])
+
+
+def _files(role: str) -> tuple[Path, ...]:
+    return tuple(sorted((FOLDER / role).glob("*.jsonl")))

@@ -6,7 +6,7 @@ import statistics
 import time
 from contextlib import suppress
 
-from semnav_env.language import CommandError, parse, readings
+from semnav_env.language import CommandError, parse
 from semnav_env.language.languages import languages
 from semnav_env.language.normalise import MAX_WORDS
 from semnav_scripts.evaluate_language import Arguments
@@ -34,6 +34,6 @@ def parsing(code: str) -> tuple[int, float]:
     for _ in range(RUNS):
         start = time.process_time()
         with suppress(CommandError):  # it has more clauses than are carried out
-            readings(text, code)
+            parse(text, code)
         times.append(time.process_time() - start)
     return text.count(" ") + 1, 1000.0 * statistics.median(times)

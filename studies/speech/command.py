@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from semnav_env.language.corpora import ParseOutcome, load_sentences
-from studies.corpora import development_corpora
+from studies.corpora import learned_corpora
 from studies.speech.robustness import (
     changed_commands,
     outcomes,
@@ -34,7 +34,7 @@ class Arguments:
         """Print a table of what stays understood, and the other figures."""
         rng = np.random.default_rng(self.seed)
         print("| | sentences | understood | asked | wrong |\n|---|---|---|---|---|")
-        for path in development_corpora():
+        for path in learned_corpora():
             corpus = load_sentences(path)
             right = understood(corpus)
             for name, disturbed in (

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from semnav_env.language import read
+from semnav_env.language import parse, read
 from semnav_env.language.command import Command
 from semnav_env.language.corpora import ParseOutcome, Sentence, judge
 from semnav_env.language.corpora.measure import rooms_in
@@ -44,7 +44,7 @@ def understood(sentences: Sequence[Sentence]) -> list[Sentence]:
     """The sentences with a meaning that are understood."""
     rooms = _rooms(sentences)
     feasible = (each for each in sentences if each.kind == "feasible")
-    return [s for s in feasible if judge(s, rooms).outcome is ParseOutcome.UNDERSTOOD]
+    return [s for s in feasible if judge(s, rooms, parse).outcome is ParseOutcome.UNDERSTOOD]
 
 
 def with_fillers(sentences: Sequence[Sentence], rng: np.random.Generator) -> Iterator[Sentence]:
@@ -78,7 +78,7 @@ def outcomes(
     rooms = _rooms(sentences)
     found = dict.fromkeys(ParseOutcome, 0)
     for sentence in disturbed:
-        found[judge(sentence, rooms).outcome] += 1
+        found[judge(sentence, rooms, parse).outcome] += 1
     return found
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from semnav_env.language.translating.network import TRAINED_FOLDER
 from semnav_env.networks.card import CARD_FILE, Card
 from semnav_env.networks.weights import save_weights
-from studies.corpora import LEARNED, TUNED, corpora_of
+from studies.corpora import learned_corpora
 from studies.translating.texts import authored, disturbed, generated
 from studies.translating.training import TranslatorTraining, trained
 
@@ -33,9 +33,8 @@ class Recipe:
     seed: int = 0
     training: TranslatorTraining = field(default_factory=TranslatorTraining)
 
-    def train(self, authors: Sequence[str], out: Path) -> None:
-        """Train a translator on the texts of authors, and write its files to a folder."""
-        corpora = corpora_of(tuple(authors))
+    def train(self, corpora: Sequence[Path], out: Path) -> None:
+        """Train a translator on the texts of corpora, and write its files to a folder."""
         known = [text for path in corpora for text in authored(path)]
         written = generated(known, self.generated, np.random.default_rng(self.seed))
         varied = disturbed(known, self.disturbed, np.random.default_rng(self.seed))
@@ -61,6 +60,6 @@ class Arguments:
 
     def run(self) -> int:
         """Train it."""
-        self.recipe.train((*TUNED, *LEARNED), self.out)
+        self.recipe.train(learned_corpora(), self.out)
         print(f"wrote {self.out / CARD_FILE}")
         return 0

@@ -6,7 +6,7 @@ import numpy as np
 
 from semnav_env.language.languages import english, language_of
 from semnav_env.language.normalise import normalise
-from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.vocabulary.lexicon import SpeechLexicon, lexicon_of
 from semnav_env.language.words import pieces
 
 SYLLABLES = ("ba", "del", "ko", "mun", "ti", "gra", "sel", "po", "nig", "tur", "fle", "zan", "lok")

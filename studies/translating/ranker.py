@@ -15,13 +15,15 @@ from scipy.optimize import minimize
 
 from semnav_env.language.command import room_of
 from semnav_env.language.corpora import Sentence, load_sentences
-from semnav_env.language.corpora.meanings import normal
+from semnav_env.language.corpora.meanings import key_of, normal
 from semnav_env.language.corpora.measure import rooms_in
+from semnav_env.language.errors import CommandError
 from semnav_env.language.rewording import paraphrases
 from semnav_env.language.sampling import sample_command
 from semnav_env.language.stops import is_stop
-from semnav_env.language.translating.candidates import heard, meaning
+from semnav_env.language.translating.network import load_translator
 from semnav_env.language.translating.ranking import evidence
+from semnav_env.language.translating.translator import TranslatedText, translate
 
 Array = NDArray[np.float64]
 
@@ -31,12 +33,12 @@ PRIOR = 1.0
 
 @dataclass(frozen=True)
 class RankedText:
-    """A text with the evidence about its candidates.
+    """A text with the evidence about its translations.
 
     Attributes:
         kind: feasible, ambiguous or infeasible.
-        evidence: of each candidate.
-        right: which candidates the text means.
+        evidence: of each translation.
+        right: which translations the text means.
         language: "english" or "german".
     """
 
@@ -47,7 +49,7 @@ class RankedText:
 
 
 def ranked_texts(path: Path, folder: Path) -> Iterator[RankedText]:
-    """The texts of a corpus as a translator finds their candidates, but for calls to stop.
+    """The texts of a corpus as a translator takes them, but for calls to stop.
 
     Args:
         path: of the corpus.
@@ -62,12 +64,26 @@ def ranked_texts(path: Path, folder: Path) -> Iterator[RankedText]:
 
 
 def _ranked(sentence: Sentence, rooms: Sequence[str], folder: Path, language: str) -> RankedText:
-    found = heard(sentence.text, None, rooms, folder)
-    meant = [normal(each) for each in sentence.meanings]
+    meant = tuple(map(normal, sentence.meanings))
+    return _judged(sentence.kind, _translated(sentence.text, rooms, folder), meant, language)
+
+
+def _translated(text: str, rooms: Sequence[str], folder: Path) -> TranslatedText | None:
+    try:
+        return translate(text, rooms, load_translator(folder))
+    except CommandError:
+        return None
+
+
+def _judged(
+    kind: str, found: TranslatedText | None, meant: Sequence[object], language: str
+) -> RankedText:
+    """The evidence about what a text is taken for, and which of it is meant."""
+    translations = found.translations if found else ()
     return RankedText(
-        sentence.kind,
-        tuple(evidence(each, found) for each in found.candidates),
-        tuple(meaning(each.command) in meant for each in found.candidates),
+        kind,
+        tuple(evidence(each, found) for each in translations if found),
+        tuple(key_of(each.command) in meant for each in translations),
         language,
     )
 
@@ -75,19 +91,15 @@ def _ranked(sentence: Sentence, rooms: Sequence[str], folder: Path, language: st
 def paraphrased(count: int, folder: Path) -> Iterator[RankedText]:
     """Paraphrases of the generator, half of them German, with one to six clauses each.
 
-    People say such long routes rarely, and the grammar reads these rightly.
+    People say such long routes rarely.
     """
     rng = np.random.default_rng(0)
     for number in range(count):
         command, code = sample_command(rng, 6, 5), ("en", "de")[number % 2]
         text = paraphrases(command, rng, 1, code)[0]
-        found = heard(text, None, tuple(filter(None, map(room_of, command.clauses))), folder)
-        yield RankedText(
-            "feasible",
-            tuple(evidence(each, found) for each in found.candidates),
-            tuple(meaning(each.command) == meaning(command) for each in found.candidates),
-            "generated",
-        )
+        rooms = tuple(filter(None, map(room_of, command.clauses)))
+        found = _translated(text, rooms, folder)
+        yield _judged("feasible", found, (key_of(command),), "generated")
 
 
 def learned(texts: Sequence[RankedText]) -> dict[str, float]:

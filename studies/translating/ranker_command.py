@@ -13,13 +13,13 @@ from semnav_env.language.translating.network import TRAINED_FOLDER
 from semnav_env.language.translating.ranking import RANKER_FILE
 from semnav_env.networks.card import CARD_FILE
 from semnav_features.writing import write_file
-from studies.corpora import LEARNED, TUNED, corpora_of
+from studies.corpora import author_of, learned_corpora
 from studies.translating.command import Recipe
 from studies.translating.ranker import RankedText, learned, paraphrased, ranked_texts, shares_of
 from studies.translating.training import TranslatorTraining
 
-HALVES = (LEARNED[::2], LEARNED[1::2])
-"""Authors who are ranked together; the translator of their texts learned from the others."""
+FIRST_STRANGER = 11
+"""The first author with whose texts the lexicon was not written."""
 
 LIGHTER = Recipe(disturbed=48000, training=TranslatorTraining(steps=9000))
 """What the two translators learn from: less than the bundled one, as they know fewer authors."""
@@ -35,9 +35,9 @@ ACTING = (0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95)
 class Arguments:
     """Learn the weights of the ranker from texts whose authors the translator does not know.
 
-    The authors on whom the grammar was not tuned are parted in halves. A translator learns without
-    each half, and finds the candidates of its texts. The table is of weights that were learned from
-    the other half; the weights that are written were learned from both.
+    The authors are parted in halves, but for those with whom the lexicon was written. A translator
+    learns without each half, and translates its texts. The table is of weights that were learned
+    from the other half; the weights that are written were learned from both.
 
     Attributes:
         folder: of the two translators; those that are there are not trained again.
@@ -51,7 +51,7 @@ class Arguments:
 
     def run(self) -> int:
         """Learn and write the weights."""
-        halves = [self._texts(number) for number in range(len(HALVES))]
+        halves = [self._texts(number) for number in range(2)]
         crossed = [
             (text, shares_of(text, weights))
             for known, asked in (halves, reversed(halves))
@@ -66,13 +66,23 @@ class Arguments:
         return 0
 
     def _texts(self, number: int) -> list[RankedText]:
-        """The texts of a half, with the candidates that a stranger to their authors finds."""
+        """The texts of a half, as a stranger to their authors translates them."""
         folder = self.folder / f"without_half_{number}"
         if not (folder / CARD_FILE).exists():
-            others = [each for each in LEARNED if each not in HALVES[number]]
-            self.recipe.train((*TUNED, *others), folder)
-        said = [t for path in corpora_of(HALVES[number]) for t in ranked_texts(path, folder)]
+            half = half_of_authors(number)
+            self.recipe.train([each for each in learned_corpora() if each not in half], folder)
+        said = [t for path in half_of_authors(number) for t in ranked_texts(path, folder)]
         return [*said, *paraphrased(PARAPHRASES, folder)]
+
+
+def half_of_authors(number: int) -> tuple[Path, ...]:
+    """Files of authors who are ranked together; the translator of their texts learned from others.
+
+    Args:
+        number: 0 or 1.
+    """
+    strangers = (each for each in learned_corpora() if author_of(each) >= FIRST_STRANGER)
+    return tuple(each for each in strangers if author_of(each) % 2 == number)
 
 
 def _show(language: str, texts: Sequence[tuple[RankedText, Iterable[float]]]) -> None:

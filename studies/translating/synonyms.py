@@ -12,7 +12,7 @@ import numpy as np
 from semnav_env.language.language import Language
 from semnav_env.language.languages import english, language_of
 from semnav_env.language.normalise import normalise
-from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.vocabulary.lexicon import SpeechLexicon, lexicon_of
 from semnav_env.language.words import pieces
 
 SWAPPED = frozenset(
@@ -39,7 +39,7 @@ _SIDED = re.compile(r"left|right|link|recht")
 
 @cache
 def _table(name: str) -> dict[str, list[str]]:
-    text = (files("semnav_env.language.speech") / f"{name}.json").read_text("utf-8")
+    text = (files("semnav_env.language.vocabulary") / f"{name}.json").read_text("utf-8")
     return {key: row.split("|") for key, row in json.loads(text).items()}
 
 

@@ -23,6 +23,7 @@ from semnav_env.language.languages import english
 from semnav_env.language.normalise import normalise
 from semnav_env.language.references import ENTRY, OTHER, DoorReference, PlaceReference, Side
 from semnav_env.language.rewording import paraphrases
+from semnav_env.language.rooms import plain_name
 from semnav_env.language.sampling import sample_command
 from studies.speech.robustness import FILLERS, PUNCTUATION
 from studies.translating.infeasible import infeasible
@@ -94,7 +95,7 @@ def generated(
     made = 0
     while made < count:
         if made % 8 < 4:
-            command = sample_command(rng, 3, 5)
+            command = sample_command(rng, int(rng.integers(1, 7)), 5)
         else:
             command = _revalued(commands[int(rng.integers(len(commands)))], rng)
         language = ("en", "de")[int(rng.integers(2))]
@@ -227,10 +228,21 @@ def _swapped(value: Any) -> Any:
     return _changed(value, _swapped)
 
 
+def _without_room(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    """One of its rooms is none of the building, so the text is to be refused."""
+    named = [name for command in text.commands for c in command.clauses if (name := room_of(c))]
+    if not named:
+        return text
+    missing = named[int(rng.integers(len(named)))]
+    others = tuple(each for each in text.rooms if plain_name(each) != missing)
+    return replace(text, rooms=others, commands=())
+
+
 CHANGES: tuple[tuple[float, Callable[[TrainingText, np.random.Generator], TrainingText]], ...] = (
     (0.3, _mirrored),
     (0.5, _with_synonyms),
     (0.08, _infeasible),
+    (0.06, _without_room),
     (0.3, _with_filler),
     (0.15, _with_filler),
     (0.4, _without_punctuation),

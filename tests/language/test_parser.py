@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from semnav_env.language import Command, CommandError, IfThere, read
 from semnav_env.language.languages import english, languages
 from semnav_env.language.normalise import SIGNS
-from semnav_env.language.speech.lexicon import lexicon_of
+from semnav_env.language.vocabulary.lexicon import lexicon_of
 from tests.support.command_strategies import commands
 from tests.support.paths import ROOT
 

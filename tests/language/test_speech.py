@@ -7,8 +7,8 @@ import pytest
 from semnav_env.language import AmbiguousCommandError, CommandError, read, readings
 from semnav_env.language.languages import english
 from semnav_env.language.normalise import MAX_WORDS
-from semnav_env.language.speech.lexicon import lexicon_of
-from semnav_env.language.speech.recognition import recognised
+from semnav_env.language.vocabulary.lexicon import lexicon_of
+from semnav_env.language.vocabulary.recognition import recognised
 
 MEANT = """
 if the door on the left is closed, take the door on the right = if you do not see the first door on the left, go through the first door on the right

@@ -6,7 +6,7 @@ import numpy as np
 
 from semnav_env.language import parse
 from semnav_env.language.corpora import ParseOutcome, load_sentences
-from studies.corpora import development_corpora
+from studies.corpora import learned_corpora
 from studies.speech.robustness import (
     changed_commands,
     outcomes,
@@ -18,7 +18,7 @@ from studies.speech.robustness import (
 
 
 def test_fillers_and_missing_punctuation_change_little() -> None:
-    corpus = load_sentences(development_corpora()[2])
+    corpus = load_sentences(learned_corpora()[2])
     right = understood(corpus)[:40]
     for disturbed, least in (
         (with_fillers(right, np.random.default_rng(0)), 0.95),

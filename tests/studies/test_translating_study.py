@@ -10,7 +10,7 @@ from semnav_env.language.corpora import (
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.translating.interpreter import AskingLimits
 from semnav_env.language.translating.network import TRAINED_FOLDER
-from studies.corpora import development_corpora
+from studies.corpora import learned_corpora
 from studies.translating.infeasible import infeasible
 from studies.translating.programs import command_of_meaning
 from studies.translating.ranker import RankedText, learned, ranked_texts, shares_of
@@ -25,7 +25,7 @@ STOP = TrainingText("Stop.", "en", (), (parse("stop"),))
 def test_a_meaning_becomes_a_command_that_means_the_same() -> None:
     meanings = [
         sentence.meanings[0]
-        for path in development_corpora()
+        for path in learned_corpora()
         for sentence in load_sentences(path)
         if sentence.kind == "feasible"
     ]
@@ -61,7 +61,7 @@ def test_variants_keep_their_meaning_up_to_left_and_right() -> None:
 
 
 def test_the_texts_are_the_same_for_the_same_seed() -> None:
-    known = authored(development_corpora()[2])[:20]
+    known = authored(learned_corpora()[2])[:20]
     first, second = (list(generated(known, 20, np.random.default_rng(3))) for _ in range(2))
     assert first == second
     assert all(each.commands for each in first)
@@ -97,7 +97,7 @@ def test_what_becomes_of_a_text_follows_from_its_probabilities(shares, right, be
 
 
 def test_the_ranked_text_has_the_candidates_of_the_interpreter() -> None:
-    found = list(ranked_texts(development_corpora()[2], TRAINED_FOLDER))[:20]
+    found = list(ranked_texts(learned_corpora()[2], TRAINED_FOLDER))[:20]
     assert all(len(text.evidence) == len(text.right) for text in found)
     assert sum(any(text.right) for text in found) >= 15
 

@@ -1,6 +1,6 @@
 """Measures agents: suites of trials, a runner, results and summaries."""
 
-from semnav_agents.evaluation.ambiguity import grammar_of, misreading
+from semnav_agents.evaluation.ambiguity import interpreter_of, misreading
 from semnav_agents.evaluation.drive import Drive, drive
 from semnav_agents.evaluation.results import (
     Result,
@@ -23,7 +23,7 @@ __all__ = [
     "conclude",
     "drive",
     "failure_line",
-    "grammar_of",
+    "interpreter_of",
     "misreading",
     "run_suite",
     "suite",

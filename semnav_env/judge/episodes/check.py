@@ -8,7 +8,7 @@ from dataclasses import replace
 from semnav_env.judge import plan_goals
 from semnav_env.judge.episodes.episode import Episode, Expected, StaleEpisodeError
 from semnav_env.judge.routes.room_guide import RoomGuide
-from semnav_env.language import readings
+from semnav_env.language import Command, CommandError, parse
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.robots import ROBOTS
 from semnav_env.world.maps import FloorPlan
@@ -42,10 +42,10 @@ def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[s
         yield f"{episode.id}: its programs are not what its readings mean"
     if episode.token_rows not in ((), anew.token_rows):
         yield f"{episode.id}: its tokens are not those of its first reading"
-    understood = readings(episode.command, episode.language, plan.room_names)
-    if set(understood) != set(meanings):
-        meant = " or ".join(f'"{m.say(episode.language)}"' for m in understood)
-        yield f'{episode.id}: "{episode.command}" now means {meant}'
+    meant = _taken_for(episode, plan)
+    if meant not in (None, *meanings):
+        said = meant.say(episode.language)
+        yield f'{episode.id}: "{episode.command}" now means "{said}"'
     for command in meanings:
         try:
             plan_goals(plan, command, episode.start, RoomGuide(plan, command, geodesic))
@@ -54,3 +54,11 @@ def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[s
             impossible = str(error)
         if bool(impossible) != (episode.expected is Expected.INFEASIBLE):
             yield f"{episode.id}: {impossible or 'it can be carried out'}"
+
+
+def _taken_for(episode: Episode, plan: FloorPlan) -> Command | None:
+    """What a robot that hears the words does; None if it asks, or refuses them."""
+    try:
+        return parse(episode.command, episode.language, plan.room_names)
+    except CommandError:
+        return None

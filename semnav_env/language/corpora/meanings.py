@@ -46,6 +46,14 @@ def meaning_of(command: Command) -> Steps:
     return read_meaning(notation_of(command))
 
 
+def key_of(command: Command) -> object:
+    """A key that is equal for commands of the same meaning by the rules of docs/commands.md."""
+    try:
+        return normal(meaning_of(command))
+    except TypeError:  # a clause without a step in the notation, such as a search
+        return command
+
+
 def normal(steps: Steps) -> Steps:
     """The same steps in the one form in which two meanings are compared."""
     plain = [part for step in _ends(steps) for part in _unfolded(step)]

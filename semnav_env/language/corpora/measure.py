@@ -12,11 +12,10 @@ from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.corpora.sentences import Sentence
 from semnav_env.language.errors import CommandError
-from semnav_env.language.parser import read
 from semnav_env.language.question import AmbiguousCommandError
 
 Understand: TypeAlias = Callable[[str, str | None, Sequence[str]], Command]
-"""What takes a text for a command, given a language or None and the rooms; like `read`."""
+"""What takes a text for a command, given a language or None and the rooms; like `parse`."""
 
 
 class ParseOutcome(StrEnum):
@@ -52,24 +51,24 @@ class SentenceVerdict:
 
 
 def verdicts(
-    sentences: Sequence[Sentence], language: str | None = None, understand: Understand = read
+    sentences: Sequence[Sentence], understand: Understand, language: str | None = None
 ) -> Iterator[SentenceVerdict]:
     """Judge sentences; the rooms that their meanings name are those of the building.
 
     Args:
         sentences: of one corpus.
+        understand: takes texts for commands, such as `parse`.
         language: forces a language; by default each text is recognised.
-        understand: takes texts for commands; by default the grammar.
     """
     rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
-    return (judge(sentence, rooms, language, understand) for sentence in sentences)
+    return (judge(sentence, rooms, understand, language) for sentence in sentences)
 
 
 def judge(
     sentence: Sentence,
     rooms: Sequence[str],
+    understand: Understand,
     language: str | None = None,
-    understand: Understand = read,
 ) -> SentenceVerdict:
     """What becomes of one sentence."""
     try:

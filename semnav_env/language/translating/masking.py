@@ -14,10 +14,10 @@ from semnav_env.language.errors import CommandError
 from semnav_env.language.languages import english, languages
 from semnav_env.language.normalise import normalise
 from semnav_env.language.references import Side
-from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of
-from semnav_env.language.speech.numerals import read_number
-from semnav_env.language.speech.recognition import lexicon_for, recognised
-from semnav_env.language.speech.room_words import name_phrases
+from semnav_env.language.vocabulary.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.vocabulary.numerals import read_number
+from semnav_env.language.vocabulary.recognition import lexicon_for, recognised
+from semnav_env.language.vocabulary.room_words import name_phrases
 from semnav_env.language.translating.spoken_values import number_at, room_at, side_at
 from semnav_env.language.translating.word_classes import classes_of
 from semnav_env.language.words import pieces

@@ -1,8 +1,8 @@
-"""How likely each candidate is what a text means: a log-linear model of evidence about them.
+"""How likely each translation is what a text means: a log-linear model of evidence about them.
 
-The probability of a candidate is proportional to the exponential of its weighted evidence, that of
-"none of these" to 1 (a conditional logit, McFadden 1974). The weights were learned with translators
-that had not learned from the author of the text, see docs/lab/language.md.
+The probability of a translation is proportional to the exponential of its weighted evidence, that
+of "none of these" to 1 (a conditional logit, McFadden 1974). The weights were learned with
+translators that had not learned from the author of the text, see docs/lab/language.md.
 """
 
 from __future__ import annotations
@@ -16,8 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from semnav_env.language.clauses import Stop
-from semnav_env.language.question import AmbiguousCommandError
-from semnav_env.language.translating.candidates import Candidate, HeardText
+from semnav_env.language.translating.translator import TranslatedText, Translation
 from semnav_env.language.translating.word_classes import UNKNOWN
 
 RANKER_FILE = "ranker.json"
@@ -27,21 +26,21 @@ LEAST = 1e-5
 """Probabilities below it count as it."""
 
 
-def ranked(text: HeardText, folder: Path) -> list[tuple[Candidate, float]]:
-    """The candidates with their probabilities, the likeliest first; "none of these" has the rest.
+def ranked(text: TranslatedText, folder: Path) -> list[tuple[Translation, float]]:
+    """The translations with their probabilities, the likeliest first; "none of these" has the rest.
 
     Args:
-        text: with its candidates.
+        text: with its translations.
         folder: of the weights.
     """
     weights = load_ranker(folder)
     scores = [
         sum(weights.get(name, 0.0) * value for name, value in evidence(each, text).items())
-        for each in text.candidates
+        for each in text.translations
     ]
     shares = np.exp(np.array([*scores, 0.0]) - max([*scores, 0.0]))
     shares /= shares.sum()
-    found = zip(text.candidates, shares.tolist(), strict=False)
+    found = zip(text.translations, shares.tolist(), strict=False)
     return sorted(found, key=lambda each: -each[1])
 
 
@@ -52,59 +51,35 @@ def load_ranker(folder: Path) -> Mapping[str, float]:
     return found
 
 
-def evidence(each: Candidate, text: HeardText) -> dict[str, float]:
-    """What speaks for and against a candidate; names without a weight do not count."""
+def evidence(each: Translation, text: TranslatedText) -> dict[str, float]:
+    """What speaks for and against a translation; names without a weight do not count."""
     likeness = _log(each.likeness)
-    others = [other.likeness or 0.0 for other in text.candidates if other is not each]
-    refused = text.translated.refusal if text.translated else 0.5
-    refusal = (_log(refused) - _log(1.0 - refused)) / 5
-    found = {
+    others = [other.likeness for other in text.translations if other is not each]
+    return {
         "any": 1.0,
         "log likeness": likeness,
-        "likeness": each.likeness or 0.0,
+        "likeness": each.likeness,
         "likelier than others": likeness - _log(max(others, default=0.0)),
-        "likeliest": float(each.place == 0),
-        "refusal": refusal,
-        "unsaid": min(each.unsaid, 2),
+        "likeliest": float(each is text.translations[0]),
+        "refusal": _log(text.refusal) - _log(1.0 - text.refusal),
+        "unsaid": min(len(each.unsaid), 2),
         "clauses": len(each.command.clauses) / 4,
         "log likeness of a clause": likeness / len(each.command.clauses),
-        "words": len(text.translated.plain.words) / 20 if text.translated else 1.0,
+        "words": len(text.plain.words) / 20,
         "unknown words": _unknown(text),
         "known words": float(_unknown(text) == 0.0),
-        "unlikened": float(each.likeness is None),
-        "untranslated": float(text.translated is None),
         "idle": float(all(isinstance(clause, Stop) for clause in each.command.clauses)),
         "unspoken": float(not text.support.speaks_of(each.command)),
         "impossible": float(text.support.is_impossible),
         "forbidding": float(text.support.is_forbidding),
     }
-    role = _role(each, text)
-    about = (
-        *("any", "log likeness", "log likeness of a clause", "refusal", "unknown words"),
-        *("known words", "clauses", "unspoken", "forbidding"),
-    )
-    return found | {f"{role}: {name}": found[name] for name in about}
 
 
-def _role(each: Candidate, text: HeardText) -> str:
-    """How the grammar took the text, and whether the candidate is its reading."""
-    if each.read and text.refusal is None:
-        return "only reading" if text.readings == 1 else "reading"
-    if each.read:
-        return "leaves words out" if text.leaves_out else "asked about"
-    if isinstance(text.refusal, AmbiguousCommandError):
-        return "beside a question"
-    return "beside a reading" if text.refusal is None else "not read"
+def _log(share: float) -> float:
+    return math.log(max(share, LEAST)) / 5
 
 
-def _log(share: float | None) -> float:
-    return math.log(max(share or 0.0, LEAST)) / 5
-
-
-def _unknown(text: HeardText) -> float:
+def _unknown(text: TranslatedText) -> float:
     """The share of three words that are unknown to the lexicon, at most 1."""
-    if text.translated is None:
-        return 0.0
-    plain = text.translated.plain
-    known = zip(plain.words, plain.classes, strict=True)
+    known = zip(text.plain.words, text.plain.classes, strict=True)
     return min(sum(kinds == (UNKNOWN,) and word.isalpha() for word, kinds in known), 3) / 3

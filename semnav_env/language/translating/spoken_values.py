@@ -8,9 +8,9 @@ from collections.abc import Mapping, Sequence
 from rapidfuzz.distance import OSA
 
 from semnav_env.language.references import Side
-from semnav_env.language.speech.lexicon import SpeechLexicon
-from semnav_env.language.speech.numerals import read_number
-from semnav_env.language.speech.typos import nearest_word
+from semnav_env.language.vocabulary.lexicon import SpeechLexicon
+from semnav_env.language.vocabulary.numerals import read_number
+from semnav_env.language.vocabulary.typos import nearest_word
 
 LONGEST_NAME = 6
 """The most words of the name of a room."""

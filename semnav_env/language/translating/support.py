@@ -9,8 +9,8 @@ from functools import cached_property
 from semnav_env.language.clauses import Follow, GoBack, Leave, Stop
 from semnav_env.language.command import Command, reference_of
 from semnav_env.language.references import PlaceReference
-from semnav_env.language.speech.lexicon import SpeechLexicon, parts_of
-from semnav_env.language.speech.recognition import lexicon_for, recognised
+from semnav_env.language.vocabulary.lexicon import SpeechLexicon, parts_of
+from semnav_env.language.vocabulary.recognition import lexicon_for, recognised
 
 _COUNTED = ("one", "ordinal", "another")
 NEEDED = {

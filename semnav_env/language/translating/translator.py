@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 from semnav_env.language.command import Command
-from semnav_env.language.errors import CommandError
+from semnav_env.language.corpora.meanings import key_of
+from semnav_env.language.named_rooms import missing_room
 from semnav_env.language.translating.masking import MARK_SYMBOLS, MaskedText, masked
 from semnav_env.language.translating.network import TranslatorNetwork
 from semnav_env.language.translating.programs import (
@@ -15,9 +17,8 @@ from semnav_env.language.translating.programs import (
     UnsayableError,
     command_of,
     sayable,
-    symbols_of,
 )
-from semnav_env.networks.layers import Array
+from semnav_env.language.translating.support import TextSupport
 
 MAX_TRANSLATED_WORDS = 90
 """The longest text that is translated, words; those of the training are shorter."""
@@ -32,7 +33,7 @@ class Translation:
 
     Attributes:
         command: the command.
-        likeness: its probability by the network, 0 to 1.
+        likeness: its probability by the network, with that of others of the same meaning.
         unsaid: numbers, sides and rooms of the text that the command does not have.
     """
 
@@ -46,34 +47,29 @@ class TranslatedText:
     """The likeliest commands of a text.
 
     Attributes:
-        translations: commands, the likeliest first.
+        translations: commands that differ in meaning, the likeliest first.
         refusal: probability that the text is no command, 0 to 1.
         plain: the text with placeholders.
-        encoded: its words, encoded by the network.
-        network: that translates.
     """
 
     translations: tuple[Translation, ...]
     refusal: float
     plain: MaskedText
-    encoded: Array
-    network: TranslatorNetwork
 
-    def likeness_of(self, command: Command) -> float | None:
-        """Probability of a command; None if the network has no symbols for it."""
-        try:
-            symbols = symbols_of(command, self.plain)
-        except UnsayableError:
-            return None
-        return math.exp(self.network.log_share_of(symbols, self.encoded))
+    @cached_property
+    def support(self) -> TextSupport:
+        """The evidence in the words of the text."""
+        return TextSupport.of(self.plain.words)
 
 
 def translate(text: str, rooms: Sequence[str], network: TranslatorNetwork) -> TranslatedText | None:
     """The likeliest commands of a text; None if it has no words, or too many.
 
+    Commands with a room that does not exist are left out.
+
     Args:
         text: in English, German or both.
-        rooms: names of the rooms of the floor plan.
+        rooms: names of the rooms of the floor plan; none if they are not known.
         network: that translates.
 
     Raises:
@@ -84,19 +80,23 @@ def translate(text: str, rooms: Sequence[str], network: TranslatorNetwork) -> Tr
     if not speaks or len(plain.words) > MAX_TRANSLATED_WORDS:
         return None
     encoded = network.encode(plain.words, plain.marks, plain.classes)
-    found, refusal = [], 0.0
-    for symbols, share in network.candidates(encoded, CANDIDATES, sayable(plain)):
+    found: dict[object, Translation] = {}
+    refusal = 0.0
+    for symbols, log_share in network.candidates(encoded, CANDIDATES, sayable(plain)):
+        share = math.exp(log_share)
         if symbols == (REFUSE,):
-            refusal = math.exp(share)
-        elif (command := _command_of(symbols, plain)) is not None:
-            found.append(Translation(command, math.exp(share), _unsaid(symbols, plain)))
-    return TranslatedText(tuple(found), refusal, plain, encoded, network)
+            refusal = share
+        elif (command := _command_of(symbols, plain)) and not missing_room(command, rooms):
+            alike = found.get(key_of(command), Translation(command, 0.0, _unsaid(symbols, plain)))
+            found[key_of(command)] = replace(alike, likeness=alike.likeness + share)
+    order = sorted(found.values(), key=lambda each: -each.likeness)
+    return TranslatedText(tuple(order), refusal, plain)
 
 
 def _command_of(symbols: Sequence[str], plain: MaskedText) -> Command | None:
     try:
         return command_of(symbols, plain)
-    except (UnsayableError, CommandError):
+    except UnsayableError:
         return None
 
 

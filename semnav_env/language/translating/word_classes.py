@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from semnav_env.language.speech.lexicon import SpeechLexicon, parts_of
+from semnav_env.language.vocabulary.lexicon import SpeechLexicon, parts_of
 
 UNKNOWN = "unknown"
 """The class of a word that is in no phrase."""

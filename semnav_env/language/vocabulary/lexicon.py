@@ -1,6 +1,6 @@
 """The words of a language for its speech parser: which phrases may mean what.
 
-A phrase may have several meanings; `semnav_env.language.speech.phrases` decides by what stands
+A phrase may have several meanings; `semnav_env.language.vocabulary.phrases` decides by what stands
 around it.
 """
 
@@ -15,7 +15,7 @@ from importlib.resources import files
 from typing import TypeAlias
 
 from semnav_env.language.language import Language
-from semnav_env.language.speech.phrases import (
+from semnav_env.language.vocabulary.phrases import (
     Phrase,
     PhraseCompiler,
     ends_of,
@@ -84,7 +84,7 @@ class SpeechLexicon:
 @cache
 def lexicon_of(language: Language) -> SpeechLexicon:
     """The lexicon of a language, read at the first call."""
-    file = files("semnav_env.language.speech") / f"{language.name}.json"
+    file = files("semnav_env.language.vocabulary") / f"{language.name}.json"
     table: dict[str, str] = json.loads(file.read_text("utf-8"))
     rows = ((key, row) for key, row in table.items() if not key.startswith("<"))
     phrases = [(phrase, *_class_and_value(key)) for key, row in rows for phrase in row.split("|")]

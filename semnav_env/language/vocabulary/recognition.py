@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from semnav_env.language.language import Language
 from semnav_env.language.languages import english, language_of, languages
 from semnav_env.language.normalise import normalise
-from semnav_env.language.speech.lexicon import SpeechLexicon, lexicon_of, mixed
+from semnav_env.language.vocabulary.lexicon import SpeechLexicon, lexicon_of, mixed
 from semnav_env.language.words import pieces
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from semnav_env.language.speech.lexicon import SpeechLexicon
+from semnav_env.language.vocabulary.lexicon import SpeechLexicon
 
 _THOUSANDS = re.compile(r"\d{1,3}(?:[.,]\d{3})+")
 _DIGITS = re.compile(r"\d+(?:[.,]\d+)?")
