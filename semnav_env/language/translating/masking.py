@@ -6,6 +6,7 @@ the text. Therefore it cannot invent a number, a side or a room that was not sai
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
@@ -39,6 +40,12 @@ MARK_SYMBOLS = ("", *VALUE_SYMBOLS, *SIDE_SYMBOLS, *ROOM_SYMBOLS)
 """The symbol of the network for each mark."""
 
 
+LONGEST_QUOTED = 3
+"""The most words in quotation marks that are taken for a room where no names are known."""
+
+_QUOTED = re.compile(r'"[^"]*"')
+
+
 @dataclass(frozen=True)
 class MaskedText:
     """The words of a text, with the values that were replaced.
@@ -70,11 +77,12 @@ def masked(text: str, rooms: Sequence[str]) -> MaskedText:
     Raises:
         CommandError: it has characters that no command has, is too long, or has too many values.
     """
-    found = pieces(normalise(text, english()).text)
-    words = [piece.text for piece in found if piece.text != "'"]
+    names = name_phrases(rooms)
+    plain = _QUOTED.sub(lambda found: _unquoted(found[0], names), normalise(text, english()).text)
+    words = [piece.text for piece in pieces(plain) if piece.text != "'"]
     first = recognised(words)
     lexica = [lexicon_of(each) for each in sorted(languages().values(), key=lambda x: x != first)]
-    masking = _Masking(words, lexica, name_phrases(rooms))
+    masking = _Masking(words, lexica, names)
     at = 0
     while at < len(words):
         at = masking.take(at)
@@ -87,6 +95,13 @@ def masked(text: str, rooms: Sequence[str]) -> MaskedText:
     return MaskedText(
         said, marks, classes, tuple(masking.values), tuple(masking.sides), tuple(masking.rooms)
     )
+
+
+def _unquoted(quoted: str, names: Mapping[tuple[str, ...], str]) -> str:
+    """A name of a room in its quotation marks; other words without them, as they are only cited."""
+    name = quoted.strip('"')
+    is_room = name in names.values() if names else len(name.split()) <= LONGEST_QUOTED
+    return quoted if is_room else name
 
 
 class _Masking:

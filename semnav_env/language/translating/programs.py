@@ -23,7 +23,7 @@ from semnav_env.language.translating.masking import (
 S = TypeVar("S", bound=Spoken)
 Fields: TypeAlias = Mapping[str, tuple[Option, ...]]
 
-START, END, REFUSE = "start", "end", "refuse"
+START, END, REFUSE = "<start>", "<end>", "<refuse>"
 
 _LITERALS = ("0", "1", "2", "-1", "-2", "0.5", "45", "90", "180")
 """Numbers that are meant without being said: "the next", "the one after", "a half turn"."""
