@@ -76,9 +76,13 @@ def _clauses(said: str, at: int, language: Language, most: int) -> Iterator[tupl
 def _joint(language: Language) -> re.Pattern[str]:
     """What stands between two clauses."""
     adverbs = ("from_there", *(link.value for link in Link if link is not Link.NEXT))
-    words = [[_plain(language.say(e), language) for e in each] for each in (("comma", "and"), adverbs)]
-    joint, adverb = ("|".join(map(re.escape, sorted(each, key=len)[::-1])) for each in words)
-    return re.compile(f"(?:{joint})(?:{adverb})")
+    return re.compile(_one_of(("comma", "and"), language) + _one_of(adverbs, language))
+
+
+def _one_of(phrases: Sequence[str], language: Language) -> str:
+    """A pattern for one of several phrases, of which the longest is tried first."""
+    words = (_plain(language.say(each), language) for each in phrases)
+    return f"(?:{'|'.join(map(re.escape, sorted(words, key=len, reverse=True)))})"
 
 
 def _spoken(kind: type[Spoken], said: str, at: int, language: Language, grammar: str) -> Found:

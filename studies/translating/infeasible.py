@@ -6,7 +6,7 @@ import numpy as np
 
 from semnav_env.language.languages import english, language_of
 from semnav_env.language.normalise import normalise
-from semnav_env.language.vocabulary.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.vocabulary.lexicon import Lexicon, lexicon_of
 from semnav_env.language.words import pieces
 
 SYLLABLES = ("ba", "del", "ko", "mun", "ti", "gra", "sel", "po", "nig", "tur", "fle", "zan", "lok")
@@ -41,7 +41,7 @@ def infeasible(text: str, code: str, rng: np.random.Generator) -> str | None:
     return " ".join([*words[:at], thing, *words[at if described else stop :]])
 
 
-def _thing(lexicon: SpeechLexicon, rng: np.random.Generator) -> str:
+def _thing(lexicon: Lexicon, rng: np.random.Generator) -> str:
     """A word for something that the robot cannot see, or one that nobody knows."""
     if rng.random() < 0.3:
         return "".join(SYLLABLES[int(k)] for k in rng.integers(len(SYLLABLES), size=3))

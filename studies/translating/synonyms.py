@@ -12,7 +12,7 @@ import numpy as np
 from semnav_env.language.language import Language
 from semnav_env.language.languages import english, language_of
 from semnav_env.language.normalise import normalise
-from semnav_env.language.vocabulary.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.vocabulary.lexicon import Lexicon, lexicon_of
 from semnav_env.language.words import pieces
 
 SWAPPED = frozenset(
@@ -74,7 +74,7 @@ def with_synonyms(text: str, code: str, rng: np.random.Generator) -> str:
     return " ".join(said)
 
 
-def _class_at(words: list[str], at: int, lexicon: SpeechLexicon) -> tuple[str | None, int]:
+def _class_at(words: list[str], at: int, lexicon: Lexicon) -> tuple[str | None, int]:
     """The class of the longest phrase at a word if it has one alone, and the word behind it."""
     matches = list(lexicon.matches(words, at))
     if not matches:

@@ -4,32 +4,45 @@ import pickle
 import re
 
 import pytest
-from hypothesis import assume, example, given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from semnav_env.language import Command, CommandError, read
+from semnav_env.language import Command, CommandError, parse, read
 from semnav_env.language.languages import english
 from semnav_env.language.normalise import MAX_CHARACTERS, MAX_WORDS
 from semnav_env.language.suggest import nearest
-from tests.support.command_strategies import commands, without_rooms
+from tests.support.command_strategies import commands
 
 
 def error_of(text: object) -> CommandError:
     with pytest.raises(CommandError) as caught:
-        read(text)  # type: ignore[arg-type]
+        parse(text)  # type: ignore[arg-type]
     return caught.value
 
 
-def test_the_caret_stands_under_the_word() -> None:
-    error = error_of("go down the hallway and hug the bumblebee")
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("take the lift to the third floor", '"lift" is nothing that the robot can see or do'),
+        ("fahr mit dem Aufzug hoch", '"Aufzug" kann der Roboter weder sehen noch tun'),
+        ("go to the toilet", 'there is no room "toilet"'),
+        ("fahr zur Toilette", 'es gibt keinen Raum "Toilette"'),
+        ("climb onto the zorgblat", '"zorgblat" is not understood'),
+        ("klettre auf den Zorgblatt", '"Zorgblatt" ist nicht verstanden'),
+    ],
+)
+def test_what_is_not_understood_is_named_in_the_language_of_the_speaker(text, problem) -> None:
+    error = error_of(text)
+    assert error.problem == problem
+    assert error.text[error.position :][: error.length] in problem
     assert "^" in str(error).splitlines()[2]
-    assert error.text[error.position : error.position + error.length].endswith("bumblebee")
 
 
-def test_what_was_understood_is_said_in_the_first_line() -> None:
-    error = error_of("turn left and climb the mast")
-    assert 'understood: "turn left"' in error.summary
-    assert "is not understood" in error.summary
+def test_the_rooms_that_there_are_are_told() -> None:
+    with pytest.raises(CommandError, match="the rooms here are: Kitchen, Lab"):
+        parse("go to the toilet", rooms=("Kitchen", "Lab"))
+    with pytest.raises(CommandError, match='no room "cellar"; there are: Kitchen'):
+        parse('go to room "cellar"', rooms=("Kitchen",))
 
 
 def test_the_place_is_that_of_the_text_as_given() -> None:
@@ -37,32 +50,6 @@ def test_the_place_is_that_of_the_text_as_given() -> None:
     assert error.text[error.position :] == "ﬁrebird"
     caret = str(error).splitlines()[2]
     assert caret.index("^") == 2 + len("  ") + 2 * len("TURN") + len(" \u200b  ")
-
-
-@pytest.mark.parametrize(
-    ("text", "meant"),
-    [
-        ("go throught the door", "through"),
-        ("go trough the door", "through"),
-        ("turn rigth", "right"),
-        ("turn letf", "left"),
-        ("trun left", "turn"),
-        ("go down the hallwya", "hallway"),
-        ("go down the corrider", "corridor"),
-        ("turn left at the intersecton", "intersection"),
-        ("go to the secnd door", "second"),
-        ("folow the hallway", "follow"),
-    ],
-)
-def test_slips_are_given_back_as_suggestions_not_as_commands(text: str, meant: str) -> None:
-    assert error_of(text).suggestion == meant
-
-
-@pytest.mark.parametrize(
-    "text", ["turn blue", "turn lift-right", "go to the 21st door", "go xyzzy"]
-)
-def test_words_like_no_other_get_no_suggestion(text: str) -> None:
-    assert error_of(text).suggestion is None
 
 
 LETTERS = st.text("abcdefghijklmnopqrstuvwxyz", max_size=8)
@@ -75,11 +62,6 @@ def test_a_word_closer_to_left_is_never_answered_with_right(word: str, other: st
         assert nearest(word, ("left",)) is None
     if nearest(word, known) == "left":
         assert nearest(word, ("right",)) is None
-
-
-@pytest.mark.parametrize("word", ["don't", "don’t", "do not", "never", "not"])
-def test_negations_are_refused_as_such(word: str) -> None:
-    assert "negations are not understood" in str(error_of(f"{word} turn left"))
 
 
 @pytest.mark.parametrize(
@@ -139,31 +121,21 @@ def test_too_many_words_are_refused() -> None:
     )
 
 
-def test_the_ninth_clause_is_pointed_at() -> None:
-    error = error_of(", ".join(["turn left"] * 8 + ["turn right", "stop"]))
-    assert error.problem == "the command has 10 clauses; at most 8 are carried out"
-    assert error.text[error.position :] == "turn right, stop"
-    assert error.length == len("turn right")
-
-
 def test_long_texts_are_shown_around_the_fault_only() -> None:
-    text = "turn left, " * 6 + "x" * 1000 + " left" * 100
+    text = "xyzzy " + "turn left and jump, " * 6 + " left" * 100
     lines = str(error_of(text)).splitlines()
     assert max(len(line) for line in lines[1:]) < 120
-    assert lines[2].count("^") == 24
-    assert lines[1][lines[2].index("^")] == "x"
 
 
 def test_errors_survive_pickling() -> None:
-    error = error_of("turn lfet")
+    error = error_of("take the lift")
     copy = pickle.loads(pickle.dumps(error))
     assert str(copy) == str(error)
-    assert copy.expected == error.expected
 
 
 def understood_or_refused(text: str) -> None:
     try:
-        command = read(text)
+        command = parse(text)
     except CommandError as error:
         message = str(error)
     else:
@@ -200,15 +172,3 @@ def test_a_changed_character_is_understood_or_refused(
     text = str(command)
     at = data.draw(st.integers(0, len(text) - 1))
     understood_or_refused(text[:at] + character + text[at + 1 :])
-
-
-@given(without_rooms, st.data())
-def test_one_lost_letter_never_turns_left_into_right(command: Command, data: st.DataObject) -> None:
-    text = str(command)
-    at = data.draw(st.integers(0, len(text) - 1))
-    assume(text[at].isalpha())  # a lost digit makes another number
-    try:
-        slipped = read(text[:at] + text[at + 1 :])
-    except CommandError:
-        return
-    assert slipped == command or slipped == read("stop") == Command(command.clauses[:1])

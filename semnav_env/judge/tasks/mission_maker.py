@@ -61,7 +61,9 @@ class MissionMaker:
                 self.floor_plan, self.geodesic, command, start, request.feasible, self.rules
             )
         except GroundingError as error:
-            from semnav_env.language.vocabulary.recognition import language_of_text  # only to say why
+            from semnav_env.language.vocabulary.recognition import (
+                language_of_text,  # only to say why
+            )
 
             spoken = language_of_text(request.instruction, request.language)
             raise error.in_words_of(spoken) from None

@@ -1,1 +1,1 @@
-"""A learned translator from words to commands, and the interpreter that asks with it."""
+"""The learned reader: masks values, translates, ranks, and acts, asks or refuses."""

@@ -9,7 +9,6 @@ from pathlib import Path
 from semnav_env.language.canonical import read_canonical
 from semnav_env.language.clauses import Stop
 from semnav_env.language.command import Command
-from semnav_env.language.errors import CommandError
 from semnav_env.language.interpreters import Interpretation
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
@@ -19,7 +18,7 @@ from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
 from semnav_env.language.translating.defaults import with_defaults
 from semnav_env.language.translating.network import TRAINED_FOLDER, load_translator
 from semnav_env.language.translating.ranking import ranked
-from semnav_env.language.translating.refusal import refusal
+from semnav_env.language.translating.refusal import Refusal
 from semnav_env.language.translating.translator import TranslatedText, Translation, translate
 from semnav_env.language.vocabulary.recognition import language_of_text
 
@@ -83,7 +82,9 @@ class LearnedInterpreter:
             return Interpretation(text, command, spoken, "translator", share)
         if begins_or_ends_with_stop(text):
             return self._stop(text)
-        raise self._question(text, spoken, found, order) or refusal(text, spoken, self.rooms, found)
+        if question := self._question(text, spoken, found, order):
+            raise question
+        raise Refusal(text, spoken, self.rooms, found).error
 
     def _may_act(self, found: Translation, share: float) -> bool:
         """Whether a command is likely enough, and no number, side or room is lost on the way."""

@@ -15,12 +15,12 @@ from semnav_env.language.errors import CommandError
 from semnav_env.language.languages import english, languages
 from semnav_env.language.normalise import normalise
 from semnav_env.language.references import Side
-from semnav_env.language.vocabulary.lexicon import SpeechLexicon, lexicon_of
+from semnav_env.language.translating.spoken_values import number_at, room_at, side_at
+from semnav_env.language.translating.word_classes import classes_of
+from semnav_env.language.vocabulary.lexicon import Lexicon, lexicon_of
 from semnav_env.language.vocabulary.numerals import read_number
 from semnav_env.language.vocabulary.recognition import lexicon_for, recognised
 from semnav_env.language.vocabulary.room_words import name_phrases
-from semnav_env.language.translating.spoken_values import number_at, room_at, side_at
-from semnav_env.language.translating.word_classes import classes_of
 from semnav_env.language.words import pieces
 
 _Key = TypeVar("_Key")
@@ -110,7 +110,7 @@ class _Masking:
     def __init__(
         self,
         words: Sequence[str],
-        lexica: Sequence[SpeechLexicon],
+        lexica: Sequence[Lexicon],
         names: Mapping[tuple[str, ...], str],
     ) -> None:
         self.words, self.lexica, self.names = words, lexica, names
@@ -127,7 +127,7 @@ class _Masking:
         self.spans.append(range(at, stop))
         return stop
 
-    def classes(self, lexicon: SpeechLexicon) -> Iterator[tuple[str, ...]]:
+    def classes(self, lexicon: Lexicon) -> Iterator[tuple[str, ...]]:
         """The classes of each masked word; of a room its being one."""
         known = classes_of(self.words, lexicon)
         for (_, mark), span in zip(self.found, self.spans, strict=True):

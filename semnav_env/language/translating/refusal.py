@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
 
 from semnav_env.language.errors import CommandError, listed
 from semnav_env.language.language import Language
 from semnav_env.language.languages import languages
-from semnav_env.language.normalise import NormalisedText, normalise
+from semnav_env.language.normalise import normalise
 from semnav_env.language.translating.support import FORBIDDING
 from semnav_env.language.translating.translator import TranslatedText
 from semnav_env.language.translating.word_classes import UNKNOWN, classes_of
@@ -16,71 +18,85 @@ from semnav_env.language.vocabulary.recognition import votes
 from semnav_env.language.vocabulary.typos import nearest_word
 from semnav_env.language.words import TextPiece, pieces
 
-SUPPORTED = 0.05
-"""Least probability of a command that a refusal names as the nearest one."""
+CAUSES = (
+    ("refused_thing", ("beyond",)),
+    ("refused_room", ("noun area",)),
+    ("refused_word", (UNKNOWN,)),
+    ("refused", FORBIDDING),
+)
+"""What is said of the first word that belongs to some classes and to no others; the first cause that
+there is counts."""
+
+LEAST_LIKENESS = 0.05
+"""Least probability of the command that a refusal names as the nearest one."""
 
 
-def refusal(
-    text: str, spoken: Language, rooms: Sequence[str], found: TranslatedText | None
-) -> CommandError:
-    """The error for a text that is no command.
+@dataclass(frozen=True)
+class Refusal:
+    """A text that is no command.
 
-    Args:
+    Attributes:
         text: as it was given.
         spoken: its language.
         rooms: names of the rooms of the floor plan.
         found: its translations; None if it has no words, or too many.
     """
-    normalised = normalise(text, spoken)
-    said = pieces(normalised.text)
-    words = [piece.text for piece in said]
-    lexicon = lexicon_of(spoken)
-    classes = [set(each) for each in classes_of(words, lexicon)]
 
-    def first(*kinds: str) -> TextPiece | None:
-        """The first word that belongs to one of these classes, and to no other."""
-        of_kind = (
-            piece
-            for piece, known in zip(said, classes, strict=True)
-            if known and all(name.partition(",")[0] in kinds for name in known)
-        )
-        return next(of_kind, None)
+    text: str
+    spoken: Language
+    rooms: Sequence[str]
+    found: TranslatedText | None
 
-    if other := _other_language(words, spoken):
-        return CommandError(spoken.say("refused_language", language=other), text)
-    if piece := first("beyond"):
-        return _about(piece, normalised, spoken.say("refused_thing", word=piece.text))
-    if piece := first("noun area"):
-        known = spoken.say("rooms_here", rooms=listed(tuple(rooms)))
-        hint = known if rooms else spoken.say("rooms_unknown")
-        return _about(piece, normalised, spoken.say("refused_room", word=piece.text), hint)
-    if piece := first(UNKNOWN):
-        nearest = nearest_word(piece.text, lexicon.words)
-        hint = spoken.say("did_you_mean", word=nearest) if nearest else None
-        return _about(piece, normalised, spoken.say("refused_word", word=piece.text), hint)
-    if piece := first(*FORBIDDING):
-        return _about(piece, normalised, spoken.say("refused"), spoken.hint(piece.text))
-    if "?" in words:
-        return CommandError(spoken.hint("?") or spoken.say("refused"), text)
-    return CommandError(spoken.say("refused"), text, hint=_nearest(found, spoken))
+    @property
+    def error(self) -> CommandError:
+        """Names the word that is at fault, or the nearest command."""
+        if other := self._other_language():
+            return CommandError(self.spoken.say("refused_language", language=other), self.text)
+        for phrase, kinds in CAUSES:
+            for piece, known in self._words:
+                if known and known <= set(kinds):
+                    return self._about(piece, phrase)
+        question = self.spoken.hint("?") if "?" in self.text else None
+        return CommandError(question or self.spoken.say("refused"), self.text, hint=self._nearest())
 
+    @cached_property
+    def _words(self) -> list[tuple[TextPiece, set[str]]]:
+        """The words, each with its classes."""
+        said = pieces(normalise(self.text, self.spoken).text)
+        found = classes_of([piece.text for piece in said], lexicon_of(self.spoken))
+        classes = ({name.partition(",")[0] for name in names} for names in found)
+        return list(zip(said, classes, strict=True))
 
-def _about(
-    piece: TextPiece, text: NormalisedText, problem: str, hint: str | None = None
-) -> CommandError:
-    return CommandError(problem, text.original, *text.span(piece.start, piece.stop), hint=hint)
+    def _about(self, piece: TextPiece, phrase: str) -> CommandError:
+        """The error that points at a word, and says it as it was written."""
+        start, length = normalise(self.text, self.spoken).span(piece.start, piece.stop)
+        problem = self.spoken.say(phrase, word=self.text[start : start + length])
+        hint = self._advice(phrase, piece.text)
+        return CommandError(problem, self.text, start, length, hint=hint)
 
+    def _advice(self, phrase: str, word: str) -> str | None:
+        say = self.spoken.say
+        match phrase:
+            case "refused_room" if self.rooms:
+                return say("rooms_here", rooms=listed(tuple(self.rooms)))
+            case "refused_room":
+                return say("rooms_unknown")
+            case "refused_word":
+                nearest = nearest_word(word, lexicon_of(self.spoken).words)
+                return say("did_you_mean", word=nearest) if nearest else None
+        return self.spoken.hint(word)
 
-def _nearest(found: TranslatedText | None, spoken: Language) -> str | None:
-    """The likeliest command, for the speaker to say it if it is meant."""
-    likely = [each for each in (found.translations if found else ()) if each.likeness > SUPPORTED]
-    return spoken.say("nearest", command=likely[0].command.say(spoken)) if likely else None
+    def _nearest(self) -> str | None:
+        """The likeliest command, for the speaker to say it if it is meant."""
+        found = self.found.translations if self.found else ()
+        if not found or found[0].likeness < LEAST_LIKENESS:
+            return None
+        return self.spoken.say("nearest", command=found[0].command.say(self.spoken))
 
-
-def _other_language(words: Sequence[str], spoken: Language) -> str | None:
-    """The name of the language to which all words of a text belong that `spoken` has not."""
-    every = sum(word[0].isalpha() for word in words)
-    for language in languages().values():
-        if language is not spoken and votes(words, language) == every > votes(words, spoken) * 2:
-            return language.name
-    return None
+    def _other_language(self) -> str | None:
+        """The name of the language to which all words belong, of which `spoken` has few."""
+        words = [piece.text for piece, _ in self._words if piece.text[0].isalpha()]
+        for language in languages().values():
+            if votes(words, language) == len(words) > 2 * votes(words, self.spoken):
+                return language.name
+        return None

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from rapidfuzz.distance import OSA
 
 from semnav_env.language.references import Side
-from semnav_env.language.vocabulary.lexicon import SpeechLexicon
+from semnav_env.language.vocabulary.lexicon import Lexicon
 from semnav_env.language.vocabulary.numerals import read_number
 from semnav_env.language.vocabulary.typos import nearest_word
 
@@ -30,7 +30,7 @@ SIDE_WORDS = {
 _HALF_MINUTE = re.compile(r"half a minute|half minute|halbe minute|halben minute|halbminute")
 
 
-def number_at(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[float, int] | None:
+def number_at(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[float, int] | None:
     """The number at a word and the place behind it: in metres or seconds, where a unit follows.
 
     Feet and yards are rounded to half a metre, as distances are multiples of it.
@@ -56,9 +56,7 @@ def number_at(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[fl
     return value, stop
 
 
-def side_at(
-    words: Sequence[str], at: int, lexica: Sequence[SpeechLexicon]
-) -> tuple[Side, int] | None:
+def side_at(words: Sequence[str], at: int, lexica: Sequence[Lexicon]) -> tuple[Side, int] | None:
     """The side that the words at a place name, and the place behind them."""
     for lexicon in lexica:
         if found := lexicon.find(words, at, "side"):
@@ -76,7 +74,7 @@ def room_at(
     words: Sequence[str],
     at: int,
     names: Mapping[tuple[str, ...], str],
-    lexica: Sequence[SpeechLexicon],
+    lexica: Sequence[Lexicon],
 ) -> tuple[str, int] | None:
     """The plain name of the room that the words at a place name, and the place behind them."""
     for stop in range(min(len(words), at + LONGEST_NAME), at, -1):
@@ -92,7 +90,7 @@ def _numbered(
     words: Sequence[str],
     at: int,
     names: Mapping[tuple[str, ...], str],
-    lexica: Sequence[SpeechLexicon],
+    lexica: Sequence[Lexicon],
 ) -> tuple[str, int] | None:
     """A room whose number is said in words: "room twenty one", "Raum eins null zwei"."""
     begins = words[at : at + 1]
@@ -113,7 +111,7 @@ def _misspelt(
     words: Sequence[str],
     at: int,
     names: Mapping[tuple[str, ...], str],
-    lexica: Sequence[SpeechLexicon],
+    lexica: Sequence[Lexicon],
 ) -> tuple[str, int] | None:
     """A room whose name has a slip, or is parted in another way: "libary", "bücher ei"."""
     for stop in range(min(len(words), at + 4), at, -1):
@@ -132,11 +130,11 @@ def _misspelt(
     return None
 
 
-def _is_number(words: Sequence[str], lexica: Sequence[SpeechLexicon]) -> bool:
+def _is_number(words: Sequence[str], lexica: Sequence[Lexicon]) -> bool:
     return any(read_number(words, 0, lexicon) for lexicon in lexica)
 
 
-def _is_known(word: str, lexica: Sequence[SpeechLexicon]) -> bool:
+def _is_known(word: str, lexica: Sequence[Lexicon]) -> bool:
     return any(word in lexicon.words for lexicon in lexica)
 
 

@@ -9,7 +9,7 @@ from functools import cached_property
 from semnav_env.language.clauses import Follow, GoBack, Leave, Stop
 from semnav_env.language.command import Command, reference_of
 from semnav_env.language.references import PlaceReference
-from semnav_env.language.vocabulary.lexicon import SpeechLexicon, parts_of
+from semnav_env.language.vocabulary.lexicon import Lexicon, parts_of
 from semnav_env.language.vocabulary.recognition import lexicon_for, recognised
 
 _COUNTED = ("one", "ordinal", "another")
@@ -46,7 +46,7 @@ class TextSupport:
     """
 
     words: tuple[str, ...]
-    lexicon: SpeechLexicon
+    lexicon: Lexicon
 
     @classmethod
     def of(cls, words: Sequence[str]) -> TextSupport:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from semnav_env.language.vocabulary.lexicon import SpeechLexicon, parts_of
+from semnav_env.language.vocabulary.lexicon import Lexicon, parts_of
 
 UNKNOWN = "unknown"
 """The class of a word that is in no phrase."""
@@ -13,7 +13,7 @@ NUMERIC = ("number", "ordinal")
 """Classes that are given without their value, which is masked."""
 
 
-def classes_of(words: Sequence[str], lexicon: SpeechLexicon) -> list[tuple[str, ...]]:
+def classes_of(words: Sequence[str], lexicon: Lexicon) -> list[tuple[str, ...]]:
     """The classes of the phrases of which each word is a part.
 
     A phrase of several words gives another class to its first word ("noun end, begun") than to
@@ -32,13 +32,13 @@ def classes_of(words: Sequence[str], lexicon: SpeechLexicon) -> list[tuple[str, 
     ]
 
 
-def _of_parts(word: str, lexicon: SpeechLexicon) -> Iterator[str]:
+def _of_parts(word: str, lexicon: Lexicon) -> Iterator[str]:
     parts = parts_of(word, lexicon)
     if parts != (word,):
         yield from (name for part in parts for name, _ in _phrases((part,), 0, lexicon))
 
 
-def _phrases(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> Iterator[tuple[str, int]]:
+def _phrases(words: Sequence[str], at: int, lexicon: Lexicon) -> Iterator[tuple[str, int]]:
     """The class of each phrase that begins at a word, and its end."""
     for kind, value, stop in lexicon.matches(words, at):
         yield (f"{kind} {value}" if value and kind not in NUMERIC else kind), stop

@@ -1,1 +1,1 @@
-"""Reads the words of people: from a text to the commands that it can mean."""
+"""The words that people say, by their classes: numerals, names of rooms, slips of the pen."""

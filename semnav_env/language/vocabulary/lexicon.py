@@ -1,7 +1,6 @@
-"""The words of a language for its speech parser: which phrases may mean what.
+"""The words of a language: which phrases belong to which class.
 
-A phrase may have several meanings; `semnav_env.language.vocabulary.phrases` decides by what stands
-around it.
+A phrase may have several classes; the translator decides by what stands around it.
 """
 
 from __future__ import annotations
@@ -22,7 +21,6 @@ from semnav_env.language.vocabulary.phrases import (
     first_words,
     words_of,
 )
-from semnav_env.language.words import TextPiece
 
 Match: TypeAlias = tuple[str, int]
 """The value of a phrase, and the number of the first word behind it."""
@@ -35,7 +33,7 @@ MIN_COMPOUND = 6
 
 
 @dataclass(frozen=True, eq=False)
-class SpeechLexicon:
+class Lexicon:
     """The phrases of a language.
 
     Attributes:
@@ -82,7 +80,7 @@ class SpeechLexicon:
 
 
 @cache
-def lexicon_of(language: Language) -> SpeechLexicon:
+def lexicon_of(language: Language) -> Lexicon:
     """The lexicon of a language, read at the first call."""
     file = files("semnav_env.language.vocabulary") / f"{language.name}.json"
     table: dict[str, str] = json.loads(file.read_text("utf-8"))
@@ -126,7 +124,7 @@ def compound_numbers(language: Language) -> Iterator[tuple[str, float]]:
 
 def _indexed(
     texts: Iterable[tuple[str, str, str]], compiler: PhraseCompiler, language: Language
-) -> SpeechLexicon:
+) -> Lexicon:
     by_first: defaultdict[str, list[tuple[Phrase, str, str]]] = defaultdict(list)
     known: set[str] = set()
     for text, kind, value in texts:
@@ -135,66 +133,19 @@ def _indexed(
             entry = phrase, kind, value
             for first in first_words(phrase):
                 by_first[first].append(entry)
-    return SpeechLexicon(dict(by_first), frozenset(known.union(compiler.words())), language)
+    return Lexicon(dict(by_first), frozenset(known.union(compiler.words())), language)
 
 
 @cache
-def mixed(main: SpeechLexicon, other: SpeechLexicon) -> SpeechLexicon:
+def mixed(main: Lexicon, other: Lexicon) -> Lexicon:
     """A lexicon with the phrases of another language that begin with a word that it has not."""
     borrowed = {
         first: found for first, found in other.by_first.items() if first not in main.by_first
     }
-    return SpeechLexicon({**borrowed, **main.by_first}, main.words | other.words, main.language)
+    return Lexicon({**borrowed, **main.by_first}, main.words | other.words, main.language)
 
 
-def spoken_pieces(
-    found: Sequence[TextPiece], lexicon: SpeechLexicon, names: Iterable[tuple[str, ...]] = ()
-) -> list[TextPiece]:
-    """The words of a text without hesitations, as the lexicon knows them.
-
-    "The door's" is read as "the door is", but not a word of a room's name ("the daughter's
-    bedroom"); and unknown words are taken apart ("reinfahren").
-    """
-    own = {word for name in names for word in name}
-    spoken: list[TextPiece] = []
-    for index, piece in enumerate(found):
-        if [each.text for each in found[index : index + 2]] == [".", "."]:
-            continue
-        if piece.text == "." and index and found[index - 1].text == ".":
-            spoken.append(piece._replace(text=","))  # "the third... wait, the second"
-            continue
-        base = piece.text.removesuffix("'s")
-        is_known = piece.text in lexicon.words or piece.text in own
-        if base != piece.text and not is_known and base in lexicon.words:
-            spoken += [piece._replace(text=base), piece._replace(text="is")]
-        elif piece.text != "'":
-            spoken += [piece._replace(text=part) for part in parts_of(piece.text, lexicon)]
-    return without(spoken, lexicon, "hesitation")
-
-
-def without(found: Sequence[TextPiece], lexicon: SpeechLexicon, kind: str) -> list[TextPiece]:
-    """The words of a text without those of a class, unless nothing would be left.
-
-    Words of a longer phrase stay ("just past"), and so does a verb that begins a clause ("halt").
-    """
-    words = [piece.text for piece in found]
-    kept: list[TextPiece] = []
-    at = 0
-    while at < len(words):
-        match = lexicon.find(words, at, kind)
-        longest = max((stop for _, _, stop in lexicon.matches(words, at)), default=at + 1)
-        longest = at + 1 if kind == "hesitation" else longest
-        begins = not kept or any(lexicon.find((kept[-1].text,), 0, c) for c in ("and", "then"))
-        is_verb = (begins or not kept[-1].text.isalnum()) and lexicon.find(words, at, "verb")
-        if match is not None and match[1] >= longest and not is_verb:
-            at = match[1]
-        else:
-            kept += found[at:longest]
-            at = longest
-    return kept or list(found)
-
-
-def parts_of(word: str, lexicon: SpeechLexicon) -> tuple[str, ...]:
+def parts_of(word: str, lexicon: Lexicon) -> tuple[str, ...]:
     """The known words of which an unknown one is made; the word itself if it is made of none.
 
     A separable verb is a particle and a verb, with "zu" between them or not ("hineinzufahren"). Of
@@ -217,25 +168,3 @@ def parts_of(word: str, lexicon: SpeechLexicon) -> tuple[str, ...]:
         if rest != word and lexicon.find((rest,), 0, "noun"):
             return (rest,)
     return (word,)
-
-
-def with_room_names(
-    found: Sequence[TextPiece], lexicon: SpeechLexicon, names: Iterable[tuple[str, ...]]
-) -> list[TextPiece]:
-    """The words of a text with the name of a room apart from its door ("Kuechentuer")."""
-    rooms = sorted((name[0] for name in names if len(name) == 1), key=len, reverse=True)
-    doors = lexicon.of_class("noun")
-    spoken: list[TextPiece] = []
-    for piece in found:
-        word = piece.text
-        parts = next(((room, end) for room in rooms if (end := _door_of(word, room, doors))), None)
-        known = word in lexicon.words or parts is None
-        spoken += [piece] if known or parts is None else [piece._replace(text=t) for t in parts]
-    return spoken
-
-
-def _door_of(word: str, room: str, doors: frozenset[str]) -> str:
-    """The end of a compound of a room's name and a noun, which an "n" or "s" may join."""
-    rest = word.removeprefix(room)
-    ends = (rest, rest[1:] if rest[:1] in ("n", "s") else "")
-    return next((end for end in ends if rest != word and end in doors), "")

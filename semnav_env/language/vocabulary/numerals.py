@@ -5,13 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from semnav_env.language.vocabulary.lexicon import SpeechLexicon
+from semnav_env.language.vocabulary.lexicon import Lexicon
 
 _THOUSANDS = re.compile(r"\d{1,3}(?:[.,]\d{3})+")
 _DIGITS = re.compile(r"\d+(?:[.,]\d+)?")
 
 
-def read_number(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[float, int] | None:
+def read_number(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[float, int] | None:
     """The number that begins at a word, and the number of the word behind it; None if none does."""
     if at >= len(words):
         return None
@@ -22,7 +22,7 @@ def read_number(words: Sequence[str], at: int, lexicon: SpeechLexicon) -> tuple[
 
 
 def _with_decimals(
-    words: Sequence[str], value: float, at: int, lexicon: SpeechLexicon
+    words: Sequence[str], value: float, at: int, lexicon: Lexicon
 ) -> tuple[float, int]:
     """A number with what follows it: "one point five", "a hundred and twenty"."""
     if point := lexicon.find(words, at, "decimal point"):

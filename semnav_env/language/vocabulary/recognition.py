@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from semnav_env.language.language import Language
 from semnav_env.language.languages import english, language_of, languages
 from semnav_env.language.normalise import normalise
-from semnav_env.language.vocabulary.lexicon import SpeechLexicon, lexicon_of, mixed
+from semnav_env.language.vocabulary.lexicon import Lexicon, lexicon_of, mixed
 from semnav_env.language.words import pieces
 
 
@@ -39,7 +39,7 @@ def votes(words: Sequence[str], language: Language) -> int:
     return sum(word in known for word in words if word[0].isalpha())
 
 
-def lexicon_for(words: Sequence[str], language: Language) -> SpeechLexicon:
+def lexicon_for(words: Sequence[str], language: Language) -> Lexicon:
     """The lexicon of a language, with words of others where the text has some that it has not."""
     lexicon = lexicon_of(language)
     for other in languages().values():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 
@@ -36,12 +36,6 @@ def _name_phrases(names: tuple[str, ...]) -> Mapping[tuple[str, ...], str]:
         for other in _in_other_words(words):
             found.setdefault(other, name)
     return MappingProxyType(found)
-
-
-def kinds_of_rooms(names: Iterable[tuple[str, ...]]) -> frozenset[str]:
-    """The words for kinds of rooms, such as "office" or "labor", that are in these names."""
-    said = {word for words in names for word in words}
-    return frozenset(word for kind in _KINDS for word in kind if said.intersection(kind))
 
 
 def _in_other_words(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Iterable
 
 from rapidfuzz.distance import OSA
 
@@ -11,26 +11,6 @@ MIN_LENGTH, LONG = 3, 7
 
 SHORT = 5
 """In words up to this length no letter is taken for another one: "late" is no "gate"."""
-
-
-def corrected_words(
-    words: Sequence[str], known: Collection[str]
-) -> tuple[list[str], dict[int, str]] | None:
-    """The words with those that are not known replaced by the nearest known ones.
-
-    Returns:
-        The words, and the replaced ones by their number; None if some word is like none, or like
-        several, or if none had to be replaced.
-    """
-    found, slips = list(words), {}
-    for index, word in enumerate(words):
-        if word in known or not word[0].isalpha():
-            continue
-        meant = nearest_word(word, known)
-        if meant is None:
-            return None
-        found[index] = slips[index] = meant
-    return (found, slips) if slips else None
 
 
 def _is_substituted(word: str, known: str) -> bool:
