@@ -13,8 +13,8 @@ from semnav_env.language import (
     DoorReference,
     GoToDoor,
     GoToRoom,
-    GrammarInterpreter,
     Interpreter,
+    LearnedInterpreter,
     ModelInterpreter,
     Side,
     from_program,
@@ -122,20 +122,18 @@ def test_what_a_model_says_is_resolved_like_every_other_command() -> None:
     (goal,) = plan_goals(plan, second, start)
     assert isinstance(goal, PassGoal)
     assert goal.door.name == "west_south_2"
-    ninth = stub(to_program(read("take the ninth door on the right"))).interpret(TEXT).command
+    ninth = stub(to_program(read("go through the ninth door on the right"))).interpret(TEXT).command
     with pytest.raises(GroundingError, match="no ninth door on the right: the hallway ended after"):
         plan_goals(plan, ninth, start)
 
 
-@given(command=commands)
-def test_the_grammar_is_an_interpreter(command: Command) -> None:
-    grammar: Interpreter = GrammarInterpreter()
-    understood = grammar.interpret(str(command))
-    assert (understood.command, understood.by) == (command, "grammar")
-    assert understood.echo == str(command)
-
-
-def test_an_interpretation_is_shown_without_its_language():
-    shown = repr(GrammarInterpreter().interpret("turn left"))
-    assert "turn" in shown
-    assert len(shown) < 300
+def test_the_learned_reader_is_an_interpreter() -> None:
+    reader: Interpreter = LearnedInterpreter()
+    found = reader.interpret("nimm die zweite Tür links")
+    assert (str(found.command), found.by) == (
+        "go through the second door on the left",
+        "translator",
+    )
+    assert 0.5 < found.likeness <= 1.0
+    assert found.echo == "fahr durch die zweite Tür links"
+    assert len(repr(found)) < 300

@@ -171,15 +171,6 @@ class TranslatorNetwork:
                 break
         return [(tuple(SYMBOLS[k] for k in said[1:-1]), share) for share, said in done]
 
-    def log_share_of(self, symbols: Sequence[str], encoded: Array) -> float:
-        """Log probability of exactly these symbols."""
-        beams, total, said = Beams(self, encoded), 0.0, SYMBOLS.index(START)
-        for symbol in (*symbols, END):
-            following = SYMBOLS.index(symbol)
-            total += float(beams.log_shares([said])[0, following])
-            said = following
-        return total
-
     def _attend(self, name: str, x: Array) -> Array:
         heads, plain = self.shape.heads, layer_norm(self.tensors, f"{name}.norm", x)
         queries = linear(self.tensors, f"{name}.query", plain).reshape(len(x), heads, -1)
