@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from enum import Enum
+from enum import StrEnum
 from functools import cache
 from itertools import product
 from string import Formatter
@@ -155,7 +155,7 @@ def _values(option: Option, said: str, at: int, language: Language, grammar: str
     elif option is str:
         if found := _NAME.match(said, at):
             yield found[0], found.end()
-    elif isinstance(option, Enum):
+    elif isinstance(option, StrEnum):
         word = _plain(language.say(option), language)
         if said.startswith(word, at):
             yield option, at + len(word)

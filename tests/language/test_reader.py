@@ -52,7 +52,7 @@ def test_everyday_commands_are_acted_on(text: str, meant: str) -> None:
 
 @pytest.mark.parametrize("path", learned_corpora()[:2], ids=lambda path: path.stem)
 def test_what_it_has_learned_is_acted_on(path) -> None:
-    """The texts of the project itself; of authors whom it does not know see docs/lab/language.md."""
+    """The texts of the project; of authors whom it does not know see docs/lab/language.md."""
     found = [each.outcome for each in verdicts(load_sentences(path), parse)]
     assert found.count(ParseOutcome.UNDERSTOOD) >= 0.9 * len(found)
     assert found.count(ParseOutcome.MISREAD) <= 0.02 * len(found)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from semnav_env.judge.episodes import Episode
 from semnav_env.language import (
     AmbiguousCommandError,
+    Command,
     CommandError,
     Interpreter,
     LearnedInterpreter,
@@ -25,6 +26,7 @@ def misreading(
 
     It is right to act on one of the meanings, or to ask about nothing but them.
     """
+    readings: tuple[Command, ...]
     try:
         readings = (interpreter(episode).interpret(episode.command).command,)
     except AmbiguousCommandError as error:

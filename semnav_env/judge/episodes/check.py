@@ -43,7 +43,7 @@ def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[s
     if episode.token_rows not in ((), anew.token_rows):
         yield f"{episode.id}: its tokens are not those of its first reading"
     meant = _taken_for(episode, plan)
-    if meant not in (None, *meanings):
+    if meant and meant not in meanings:
         said = meant.say(episode.language)
         yield f'{episode.id}: "{episode.command}" now means "{said}"'
     for command in meanings:

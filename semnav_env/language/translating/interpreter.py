@@ -76,7 +76,7 @@ class LearnedInterpreter:
             return Interpretation(text, command, spoken, "canonical words")
         found = translate(text, self.rooms, load_translator(self.folder))
         order = ranked(found, self.folder) if found else []
-        if order and self._may_act(*order[0]):
+        if found and order and self._may_act(*order[0]):
             likeliest, share = order[0]
             command = with_defaults(likeliest.command, found.support)
             return Interpretation(text, command, spoken, "translator", share)

@@ -24,8 +24,8 @@ CAUSES = (
     ("refused_word", (UNKNOWN,)),
     ("refused", FORBIDDING),
 )
-"""What is said of the first word that belongs to some classes and to no others; the first cause that
-there is counts."""
+"""What is said of the first word that belongs to some classes and to no others. The first cause
+that there is counts."""
 
 LEAST_LIKENESS = 0.05
 """Least probability of the command that a refusal names as the nearest one."""
