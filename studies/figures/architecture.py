@@ -32,7 +32,7 @@ ABOUT = {
     "semnav_env/bench": "the measurement of speed: `semnav bench`",
     "semnav_env/language": "text to clauses and back",
     "semnav_env/language/corpora": "how much of people's words is understood",
-    "semnav_env/language/speech": "from words to the clauses that they mean",
+    "semnav_env/language/vocabulary": "the words that people say, by their classes",
     "semnav_env/world/depth": "simulated depth cameras, and floor plans raised to their ceiling",
     "semnav_env/world/dynamics": "people, swinging doors, moved furniture",
     "semnav_env/judge/episodes": "frozen episodes and the splits",
@@ -65,7 +65,7 @@ ABOUT = {
     "semnav_env/networks": "the layers of learned networks in NumPy, and their files",
     "semnav_agents/planning": "the planner of the scripted agent and the oracle",
     "semnav_agents/searching": "searching a house: poses to look from, and people to approach",
-    "semnav_env/language/translating": "a learned translator, and the ranker beside the grammar",
+    "semnav_env/language/translating": "the learned reader: values out, translated, ranked",
     "semnav_scripts": "the `semnav` command",
 }
 
@@ -119,7 +119,7 @@ in threads (`semnav_env/vector/tick.py`) and the functions called once. On a rea
 `BeliefTracker.update` calls `understand` with the sensor data. `EntryObservation.observe`
 (`semnav_env/mind/observations/observer.py`) makes the arrays that an agent gets.
 
-**A command.** `parse` (`semnav_env/language/parser.py`) turns text into a `Command`, a tuple of
+**A command.** `parse` (`semnav_env/language/translating/interpreter.py`) turns text into a `Command`, a tuple of
 clauses. `MissionMaker` (`semnav_env/judge/tasks/mission_maker.py`) checks on the floor plan that
 it can be carried out. The robot's `Follower` (`semnav_env/mind/grounding/follower.py`) holds the
 active clause and grounds it on the memory (`semnav_env/mind/grounding/ground.py`); the result is a

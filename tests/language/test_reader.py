@@ -175,6 +175,13 @@ def test_a_text_speaks_of_all_that_its_translation_names(
     assert TextSupport.of(text.split()).speaks_of(read(meant)) is speaks
 
 
+@pytest.mark.parametrize(("text", "code"), [("kehr um", "de"), ("turn around", "en")])
+def test_the_language_of_a_text_is_recognised(text: str, code: str) -> None:
+    assert LearnedInterpreter().interpret(text).language.code == code
+    with pytest.raises(CommandError, match="say language="):
+        parse(text, {"en": "de", "de": "en"}[code])
+
+
 @pytest.mark.parametrize("code", sorted(languages()))
 def test_every_word_can_be_typed_on_a_plain_keyboard(code: str) -> None:
     language = languages()[code]

@@ -9,6 +9,7 @@ from semnav_env.judge import plan_goals
 from semnav_env.judge.episodes.episode import Episode, Expected, StaleEpisodeError
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.language import Command, CommandError, parse
+from semnav_env.language.corpora.meanings import key_of
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.robots import ROBOTS
 from semnav_env.world.maps import FloorPlan
@@ -43,7 +44,7 @@ def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[s
     if episode.token_rows not in ((), anew.token_rows):
         yield f"{episode.id}: its tokens are not those of its first reading"
     meant = _taken_for(episode, plan)
-    if meant and meant not in meanings:
+    if meant and key_of(meant) not in map(key_of, meanings):
         said = meant.say(episode.language)
         yield f'{episode.id}: "{episode.command}" now means "{said}"'
     for command in meanings:
