@@ -21,8 +21,8 @@ from semnav_env.language.corpora import (
 )
 from semnav_env.language.translating.network import TRAINED_FOLDER
 
-CORPORA = Path("studies/corpora")
-"""Folder of the sets of sentences, from the root of a checkout."""
+HELD_OUT = Path("studies/corpora/held_out")
+"""Folder of the sets of which nothing was learned, from the root of a checkout."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,8 @@ class Arguments:
 
     Attributes:
         corpora: files of sentences with their meanings (.jsonl, see docs/meanings.md), or of plain
-            sentences, one a line; by default those in `studies/corpora`, in a checkout.
+            sentences, one a line; by default those of which nothing was
+            learned, in a checkout.
         language: force a language; by default each text is recognised.
         translator: folder of the translator and its ranker; by default those of the package.
         show: print the sentences with this outcome.
@@ -64,10 +65,10 @@ class Arguments:
         return 0
 
     def _files(self) -> Sequence[Path]:
-        found = self.corpora or sorted(CORPORA.glob("*.jsonl"))
+        found = self.corpora or sorted(HELD_OUT.glob("*.jsonl"))
         if not found:
             raise ValueError(
-                f"name files of sentences; there are none in {CORPORA}, as in a checkout"
+                f"name files of sentences; there are none in {HELD_OUT}, as in a checkout"
             )
         return found
 

@@ -75,6 +75,12 @@ MAX_AMOUNT = {Unit.METRES: 50.0, Unit.STEPS: 100.0, Unit.SOME: 1.0}
 AMOUNT_STEP = {Unit.METRES: 0.5, Unit.STEPS: 1.0, Unit.SOME: 1.0}
 """Distances are multiples of this, in their unit, so that they can be tokens."""
 
+
+def to_half_metre(metres: float) -> float:
+    """The nearest distance that a command can have, metres, of at least half a metre."""
+    return max(AMOUNT_STEP[Unit.METRES], round(2.0 * metres) / 2.0)
+
+
 STEP_LENGTH = 0.7
 """Length of a person's step, metres."""
 

@@ -43,7 +43,7 @@ def infeasible(text: str, code: str, rng: np.random.Generator) -> str | None:
 
 def _thing(lexicon: Lexicon, rng: np.random.Generator) -> str:
     """A word for something that the robot cannot see, or one that nobody knows."""
-    if rng.random() < 0.3:
+    if rng.random() < 0.15:
         return "".join(SYLLABLES[int(k)] for k in rng.integers(len(SYLLABLES), size=3))
     known = sorted(lexicon.of_class("beyond") - lexicon.words)
     return known[int(rng.integers(len(known)))]

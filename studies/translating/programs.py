@@ -36,6 +36,7 @@ from semnav_env.language.references import (
     RoomReference,
     Side,
     Unit,
+    to_half_metre,
 )
 from semnav_env.language.rooms import plain_name
 
@@ -106,7 +107,9 @@ def _clauses(step: Step) -> list[Clause]:
 def _distance(amount: float | str, unit: str = "") -> Distance:
     if isinstance(amount, str):
         return SOME
-    return Distance(amount, Unit.METRES if unit == "m" else Unit.STEPS)
+    if unit == "m":
+        return Distance(to_half_metre(amount))
+    return Distance(amount, Unit.STEPS)
 
 
 def _condition(step: Step) -> list[Clause]:

@@ -241,7 +241,7 @@ def _without_room(text: TrainingText, rng: np.random.Generator) -> TrainingText:
 CHANGES: tuple[tuple[float, Callable[[TrainingText, np.random.Generator], TrainingText]], ...] = (
     (0.3, _mirrored),
     (0.5, _with_synonyms),
-    (0.08, _infeasible),
+    (0.04, _infeasible),
     (0.06, _without_room),
     (0.3, _with_filler),
     (0.15, _with_filler),

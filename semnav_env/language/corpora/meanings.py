@@ -20,6 +20,7 @@ The equivalences, each true by the rules of docs/commands.md:
 15. "hallway for some" before a step that says where to adds nothing to "hallway".
 16. "through door(entry)" is "leave".
 17. "hallway past P; hallway for 2 m" is "hallway until 2 m after P".
+18. Metres are driven to the next half.
 """
 
 from __future__ import annotations
@@ -29,6 +30,7 @@ from typing import Any
 
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.notation import Step, Steps, notation_of, read_meaning
+from semnav_env.language.references import to_half_metre
 from semnav_env.language.rooms import plain_name
 
 _FIRST = ("door", 1, None, None, None)
@@ -71,12 +73,14 @@ def normal(steps: Steps) -> Steps:
 
 
 def _ends(value: Any) -> Any:
-    """The same with the plain names of rooms, and with the wall ahead as the end."""
+    """The same with plain names of rooms, half metres, and the wall ahead as the end."""
     match value:
         case ("room", str(name)):
             return ("room", plain_name(name))
         case ("wall", int()):
             return ("end", 1)
+        case (*before, float(metres), "m"):
+            return (*map(_ends, before), to_half_metre(metres), "m")
         case tuple():
             return tuple(map(_ends, value))
     return value
@@ -89,7 +93,7 @@ def _unfolded(step: Step) -> list[Step]:
             return [("hallway", "until", ("end", 1))]
         case ("back", place):
             return [("turn", "around", None), ("hallway", "until", place)]
-        case ("through", ("door", "entry", *_)):
+        case ("through" | "leave", ("door", "entry", *_)):
             return [("leave",)]
         case ("leave", door):
             return _with_door(("through",), door)

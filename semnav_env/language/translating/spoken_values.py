@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 from rapidfuzz.distance import OSA
 
-from semnav_env.language.references import Side
+from semnav_env.language.references import Side, to_half_metre
 from semnav_env.language.vocabulary.lexicon import Lexicon
 from semnav_env.language.vocabulary.numerals import read_number
 from semnav_env.language.vocabulary.typos import nearest_word
@@ -33,7 +33,7 @@ _HALF_MINUTE = re.compile(r"half a minute|half minute|halbe minute|halben minute
 def number_at(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[float, int] | None:
     """The number at a word and the place behind it: in metres or seconds, where a unit follows.
 
-    Feet and yards are rounded to half a metre, as distances are multiples of it.
+    Metres are rounded to the next half, as a command has no others.
     """
     for stop in range(at + 1, min(at + 3, len(words)) + 1):
         if _HALF_MINUTE.fullmatch(" ".join(words[at:stop])):
@@ -49,10 +49,12 @@ def number_at(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[float, i
         match kind:
             case "minutes":
                 return value * 60, stop
+            case "metres":
+                return to_half_metre(value), stop
             case "cm":
-                return value / 100, stop
+                return to_half_metre(value / 100), stop
             case "feet" | "yards":
-                return round(2 * value * (FEET if kind == "feet" else YARDS)) / 2, stop
+                return to_half_metre(value * (FEET if kind == "feet" else YARDS)), stop
     return value, stop
 
 
