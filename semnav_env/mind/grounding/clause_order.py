@@ -20,11 +20,12 @@ def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int
     if isinstance(clause, IfThere):
         return index + 1 + (0 if met else clause.then)
     at = _condition_over(clauses, index)
-    if at is None or _case(clauses, index) == _case(clauses, index + 1):
+    if at is None:
         return index + 1
-    condition = clauses[at]
-    assert isinstance(condition, IfThere)
-    return at + 1 + condition.then + condition.otherwise
+    match clauses[at]:
+        case IfThere(otherwise=otherwise, then=then) if index == at + then:
+            return index + 1 + otherwise
+    return index + 1
 
 
 def in_context(clauses: Sequence[Clause], index: int) -> Clause:
@@ -75,7 +76,7 @@ def _case(clauses: Sequence[Clause], index: int) -> bool | None:
     """The case of a condition for which a clause is; None if it depends on none."""
     at = _condition_over(clauses, index)
     condition = None if at is None else clauses[at]
-    return index <= at + condition.then if isinstance(condition, IfThere) else None
+    return index <= (at or 0) + condition.then if isinstance(condition, IfThere) else None
 
 
 def _condition_over(clauses: Sequence[Clause], index: int) -> int | None:

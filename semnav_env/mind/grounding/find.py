@@ -138,9 +138,7 @@ def _find_opposite(
     raise GroundingError(f"no door opposite: none faces {here}")
 
 
-def _find_related(
-    reference: DoorReference, situation: Situation
-) -> Known[CountedDoor] | Searching:
+def _find_related(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
     """Find a door beside or before something, once no nearer one can be hidden."""
     from semnav_env.mind.grounding import related_doors as related  # few commands need it
 
@@ -158,7 +156,8 @@ def _find_related(
     index = _index(reference, len(doors))
     found = doors[index] if 0 <= index < len(doors) else None
     start, until = related.decisive_stretch(reference, span.value, found, situation)
-    if not situation.complete and _may_hide_a_door(situation, reference.side, until, start):
+    side = related.counted_side(reference, span.value)
+    if not situation.complete and _may_hide_a_door(situation, side, until, start):
         return situation.go_on(f"doors {reference.relation} {reference.to}", until)
     if found is None:
         there = f"there are {len(doors)}" if len(doors) != 1 else "there is 1"
@@ -183,7 +182,9 @@ def _span_of(reference: DoorReference, situation: Situation) -> Known[Span] | Se
         door = find_door(to, situation)
         if isinstance(door, Searching):
             return door
-        return Known(Span(door.value.along, door.value.along, door.value.door))
+        counted = door.value
+        side = None if counted.side is Side.AHEAD else counted.side
+        return Known(Span(counted.along, counted.along, counted.door, side))
     if to is not None and to.place is Place.END:
         return situation.go_on(to) if math.isinf(end) else Known(Span(end, end))
     found = find_junction(to, None, situation)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from semnav_env.language.references import DoorReference, DoorRelation
+from semnav_env.language.references import DoorReference, DoorRelation, Side
 from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.mind.grounding.errors import UnclearError
 from semnav_env.mind.grounding.situation import Situation
@@ -20,11 +20,13 @@ class Span(NamedTuple):
         near: where it begins along the axis, metres.
         far: where it ends, metres.
         door: the door that it is, or that leads to it; None if it is no door.
+        side: on which side that door is; None for a door across the hallway's end.
     """
 
     near: float
     far: float
     door: Door | None = None
+    side: Side | None = None
 
     @staticmethod
     def of_junction(junction: Junction) -> Span:
@@ -34,6 +36,12 @@ class Span(NamedTuple):
     def distance(self, door: CountedDoor) -> float:
         """Distance of the middle of a door along the hallway, metres; 0 within the span."""
         return max(self.near - door.along, door.along - self.far, 0.0)
+
+
+def counted_side(reference: DoorReference, span: Span) -> Side | None:
+    """The side on which doors are counted: beside a door is on its side, if none is said."""
+    is_beside = reference.relation is DoorRelation.AT
+    return reference.side or (span.side if is_beside else None)
 
 
 def related_doors(
@@ -46,10 +54,10 @@ def related_doors(
         span: where that is.
         situation: of a robot in that hallway.
     """
-    rules = situation.rules.grounding
+    rules, side = situation.rules.grounding, counted_side(reference, span)
     doors = [
         door
-        for door in doors_along(situation.scene, situation.corridor, reference.side, rules)
+        for door in doors_along(situation.scene, situation.corridor, side, rules)
         if door.door != span.door
     ]
     if reference.relation is DoorRelation.BEFORE:

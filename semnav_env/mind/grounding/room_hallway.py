@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from semnav_env.language.references import DoorReference, RoomReference
+from semnav_env.language.references import DoorReference, RoomReference, Side
 from semnav_env.mind.grounding.door_geometry import heading_through
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.goal import Goal, SeekGoal, door_of
@@ -13,7 +13,7 @@ from semnav_env.mind.grounding.related_doors import Span
 from semnav_env.mind.grounding.search import Searching
 from semnav_env.mind.grounding.situation import Situation
 from semnav_env.mind.grounding.ways import Way, door_near, paced
-from semnav_features.frames import Point, Pose, heading_between, wrap_angle
+from semnav_features.frames import Point, Pose, heading_between, to_local, wrap_angle
 
 ALONG = math.pi / 4
 """A stretch of a way leads along a hallway if their directions differ by less, radians."""
@@ -48,8 +48,10 @@ def room_span(reference: DoorReference, situation: Situation) -> Span:
     way, rules = _way(reference, situation), situation.rules.grounding
     door = door_near(situation.scene, way, situation.pose, rules)
     middle = way.places[-1] if way.door is None else (door or way.door).midpoint
-    along = situation.corridor.along(middle)
-    return Span(along, along, door or way.door)
+    along, offset = to_local(situation.corridor.frame, middle)
+    is_beside = abs(offset) > situation.corridor.half_width / 2
+    side = (Side.LEFT if offset > 0.0 else Side.RIGHT) if is_beside else None
+    return Span(along, along, door or way.door, side)
 
 
 def led_along(goal: Goal, way: Way, situation: Situation) -> Goal:
