@@ -26,7 +26,7 @@ from semnav_env.mind.grounding.situation import Situation, is_behind
 from semnav_features.corridor import Junction
 
 if TYPE_CHECKING:
-    from semnav_env.mind.grounding.related_doors import Span
+    from semnav_env.mind.grounding.related_doors import HallSpan
 
 
 def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
@@ -169,9 +169,9 @@ def _find_related(reference: DoorReference, situation: Situation) -> Known[Count
     return Known(found)
 
 
-def _span_of(reference: DoorReference, situation: Situation) -> Known[Span] | Searching:
+def _span_of(reference: DoorReference, situation: Situation) -> Known[HallSpan] | Searching:
     """Where that lies along the hallway to which a door has a relation."""
-    from semnav_env.mind.grounding.related_doors import Span  # few commands need it
+    from semnav_env.mind.grounding.related_doors import HallSpan  # few commands need it
 
     to, end = reference.to, situation.corridor.end
     if isinstance(to, RoomReference):
@@ -184,11 +184,11 @@ def _span_of(reference: DoorReference, situation: Situation) -> Known[Span] | Se
             return door
         counted = door.value
         side = None if counted.side is Side.AHEAD else counted.side
-        return Known(Span(counted.along, counted.along, counted.door, side))
+        return Known(HallSpan(counted.along, counted.along, counted.door, side))
     if to is not None and to.place is Place.END:
-        return situation.go_on(to) if math.isinf(end) else Known(Span(end, end))
+        return situation.go_on(to) if math.isinf(end) else Known(HallSpan(end, end))
     found = find_junction(to, None, situation)
-    return found if isinstance(found, Searching) else Known(Span.of_junction(found.value))
+    return found if isinstance(found, Searching) else Known(HallSpan.of_junction(found.value))
 
 
 def _index(reference: DoorReference, count: int) -> int:

@@ -89,8 +89,8 @@ def _goal_by_room(clause: Clause, reference: DoorReference, situation: Situation
     if isinstance(hallway, Searching):
         return search_goal(hallway)
     goal = _goal_in_hallway(clause, hallway)
-    if hallway is situation or situation.way is None:
-        return goal
+    if hallway is situation or situation.way is None or not situation.complete:
+        return goal  # a robot that is in the hallway needs no way
     return led_along(goal, situation.way, hallway)
 
 

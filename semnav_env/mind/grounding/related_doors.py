@@ -13,7 +13,7 @@ from semnav_features.corridor import Junction
 from semnav_features.scene import Door
 
 
-class Span(NamedTuple):
+class HallSpan(NamedTuple):
     """The part of a hallway that something takes up.
 
     Attributes:
@@ -29,23 +29,23 @@ class Span(NamedTuple):
     side: Side | None = None
 
     @staticmethod
-    def of_junction(junction: Junction) -> Span:
+    def of_junction(junction: Junction) -> HallSpan:
         """From the first edge of its openings to the last one."""
-        return Span(min(opening.near for opening in junction.openings), junction.far)
+        return HallSpan(min(opening.near for opening in junction.openings), junction.far)
 
     def distance(self, door: CountedDoor) -> float:
         """Distance of the middle of a door along the hallway, metres; 0 within the span."""
         return max(self.near - door.along, door.along - self.far, 0.0)
 
 
-def counted_side(reference: DoorReference, span: Span) -> Side | None:
+def counted_side(reference: DoorReference, span: HallSpan) -> Side | None:
     """The side on which doors are counted: beside a door is on its side, if none is said."""
     is_beside = reference.relation is DoorRelation.AT
     return reference.side or (span.side if is_beside else None)
 
 
 def related_doors(
-    reference: DoorReference, span: Span, situation: Situation
+    reference: DoorReference, span: HallSpan, situation: Situation
 ) -> Sequence[CountedDoor]:
     """The doors that a reference may name, in the order in which it counts them.
 
@@ -67,7 +67,7 @@ def related_doors(
 
 
 def decisive_stretch(
-    reference: DoorReference, span: Span, found: CountedDoor | None, situation: Situation
+    reference: DoorReference, span: HallSpan, found: CountedDoor | None, situation: Situation
 ) -> tuple[float, float]:
     """From where to where a door may hide that would be counted before the found one, metres."""
     if reference.relation is DoorRelation.BEFORE:
@@ -79,7 +79,7 @@ def decisive_stretch(
 
 def check_nearest(
     reference: DoorReference,
-    span: Span,
+    span: HallSpan,
     doors: Sequence[CountedDoor],
     index: int,
     situation: Situation,

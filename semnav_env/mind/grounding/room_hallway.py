@@ -8,8 +8,8 @@ from dataclasses import replace
 from semnav_env.language.references import DoorReference, RoomReference, Side
 from semnav_env.mind.grounding.door_geometry import heading_through
 from semnav_env.mind.grounding.errors import GroundingError
-from semnav_env.mind.grounding.goal import Goal, SeekGoal, door_of
-from semnav_env.mind.grounding.related_doors import Span
+from semnav_env.mind.grounding.goal import Goal, PassGoal, SeekGoal
+from semnav_env.mind.grounding.related_doors import HallSpan
 from semnav_env.mind.grounding.search import Searching
 from semnav_env.mind.grounding.situation import Situation
 from semnav_env.mind.grounding.ways import Way, door_near, paced
@@ -43,7 +43,7 @@ def hallway_of(reference: DoorReference, situation: Situation) -> Situation | Se
     return replace(situation, begin=there)
 
 
-def room_span(reference: DoorReference, situation: Situation) -> Span:
+def room_span(reference: DoorReference, situation: Situation) -> HallSpan:
     """Where the door of a room lies along the hallway; a room without one, where the way ends."""
     way, rules = _way(reference, situation), situation.rules.grounding
     door = door_near(situation.scene, way, situation.pose, rules)
@@ -51,19 +51,19 @@ def room_span(reference: DoorReference, situation: Situation) -> Span:
     along, offset = to_local(situation.corridor.frame, middle)
     is_beside = abs(offset) > situation.corridor.half_width / 2
     side = (Side.LEFT if offset > 0.0 else Side.RIGHT) if is_beside else None
-    return Span(along, along, door or way.door, side)
+    return HallSpan(along, along, door or way.door, side)
 
 
 def led_along(goal: Goal, way: Way, situation: Situation) -> Goal:
     """A goal in the hallway at a room, with the way that leads there from where the robot began."""
     if isinstance(goal, SeekGoal):
         return goal
-    door = door_of(goal)
-    there = goal.pose[:2] if door is None else door.midpoint
-    foot = situation.corridor.place(situation.corridor.along(there))[:2]
     entered = way.places.index(situation.begin[:2])
-    places = paced([*way.places[: entered + 1], foot, there])
-    return replace(goal, corridor=None, places=places)
+    ends = [goal.pose[:2]]
+    if isinstance(goal, PassGoal):  # along the hallway up to its door
+        middle = goal.door.midpoint
+        ends = [situation.corridor.place(situation.corridor.along(middle))[:2], middle]
+    return replace(goal, corridor=None, places=paced([*way.places[: entered + 1], *ends]))
 
 
 def _way(reference: DoorReference, situation: Situation) -> Way:

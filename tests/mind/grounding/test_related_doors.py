@@ -7,7 +7,6 @@ import pytest
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
 from semnav_env import SemNavEnv
-
 from semnav_env.judge import plan_goals
 from semnav_env.language import (
     ENTRY,
