@@ -68,6 +68,8 @@ class GroundingRules:
             begins, so that this doorway does not count, metres: half of a door's width.
         faced_door_distance: a door no farther ahead than this is the one that a robot turns away
             from, metres.
+        beside_distance: a door farther than this from a place, along the hallway, is not beside it,
+            metres: about as far as from one office door to the next.
         some_distance: length of "a bit" and "a short way", metres: some three steps.
         way_door_depth: largest distance between a seen door and the told place of the door, in the
             direction through it, metres: odometry drifts.
@@ -111,6 +113,7 @@ class GroundingRules:
     behind_referent: Length = 0.3
     beside_doorway: Length = 0.5
     faced_door_distance: Length = 2.0
+    beside_distance: Length = 5.0
     some_distance: Length = 2.0
     way_door_depth: Length = 1.5
     way_door_offset: Length = 1.0

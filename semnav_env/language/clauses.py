@@ -311,34 +311,74 @@ class Face(Clause):
             raise ValueError(f"a wall is on the left or on the right, not {self.what}")
 
 
+MAX_BRANCHES = 7
+"""The most clauses that depend on a condition: all others of a command."""
+
+
+def _condition_form(absent: bool, then: int, otherwise: int) -> Form:
+    """The form of a condition with so many clauses for each case.
+
+    Its symbols have a number only where there is more than one clause: "if door 1 2 else".
+    """
+    verb, no = ("if_not", "no ") if absent else ("if", "")
+    counts = [_summed(then) if then > 1 else "", "else" if otherwise else "", ""]
+    counts[2] = _summed(otherwise) if otherwise > 1 else ""
+    return form(
+        verb,
+        " ".join([verb, "{what}", *filter(None, counts)]),
+        f"if {no}{{what}}",
+        (TokenVerb.IF_THERE, 2 * absent + (otherwise > 0)),
+        absent=absent,
+        then=then,
+        otherwise=otherwise,
+        sampled=then == 1 and otherwise < 2,
+    )
+
+
+def _summed(count: int) -> str:
+    """A number by the symbols that there are: 3 is "2 1"."""
+    return " ".join(["2"] * (count // 2) + ["1"] * (count % 2))
+
+
 @dataclass(frozen=True, slots=True)
 class IfThere(Clause):
-    """Carry out the next clause only if something is there: "if there is a door on the left, ...".
+    """Carry out the next clauses only if something is there: "if there is a door on the left, ...".
+
+    A token has room for whether something is done otherwise, but not for the numbers of clauses.
 
     Attributes:
         what: a door or a place ahead.
-        absent: carry it out only if that is not there.
-        otherwise: the clause after the next one is for the other case.
+        absent: carry them out only if that is not there.
+        otherwise: how many clauses after them are for the other case; True is 1.
+        then: how many clauses are carried out; together at most `MAX_BRANCHES`.
     """
 
     what: DoorReference | PlaceReference
     absent: bool = False
-    otherwise: bool = False
-    forms: ClassVar[tuple[Form, ...]] = (
-        form("if", "if {what}", "if {what}", (TokenVerb.IF_THERE, 0)),
-        form("if", "if {what} else", "if {what}", (TokenVerb.IF_THERE, 1), otherwise=True),
-        form("if_not", "if_not {what}", "if no {what}", (TokenVerb.IF_THERE, 2), absent=True),
-        form(
-            *("if_not", "if_not {what} else", "if no {what}", (TokenVerb.IF_THERE, 3)),
-            absent=True,
-            otherwise=True,
-        ),
+    otherwise: int | bool = 0
+    then: int = 1
+    forms: ClassVar[tuple[Form, ...]] = tuple(
+        _condition_form(absent, then, otherwise)
+        for absent in (False, True)
+        for then in range(1, MAX_BRANCHES + 1)
+        for otherwise in range(MAX_BRANCHES + 1 - then)
     )
 
     def __post_init__(self) -> None:
         if not isinstance(self.what, DoorReference | PlaceReference):
             raise ValueError(f"a condition is on a door or a place ahead, not on {self.what!r}")
         _check_ahead(self.what)
+        object.__setattr__(self, "otherwise", _checked_count("otherwise", self.otherwise, 0))
+        object.__setattr__(self, "then", _checked_count("then", self.then, 1))
+        if self.then + self.otherwise > MAX_BRANCHES:
+            raise ValueError(f"at most {MAX_BRANCHES} clauses depend on a condition")
+
+
+def _checked_count(what: str, count: object, least: int) -> int:
+    """A number of clauses; programs of old say true for one."""
+    if not isinstance(count, int) or not least <= count <= MAX_BRANCHES:
+        raise ValueError(f"{what} is {least} to {MAX_BRANCHES} clauses, not {shown(count)}")
+    return int(count)
 
 
 def _check_ahead(reference: object) -> None:

@@ -72,8 +72,9 @@ class Command:
         last = len(self.clauses) - 2
         for index, (before, clause) in enumerate(pairwise(self.clauses)):
             link = links[index + 1]
-            plain = link is Link.NEXT
-            joint = spoken.say("and" if plain and index == last else "comma")
+            plain = link in (Link.NEXT, Link.ALSO)
+            is_last = link is Link.ALSO or (plain and index == last)
+            joint = spoken.say("and" if is_last else "comma")
             anew = plain and may_count_on(before, clause)
             adverb = spoken.say("from_there" if anew else link.value) if anew or not plain else ""
             said += [joint + adverb, clause.say(spoken)]
@@ -81,10 +82,15 @@ class Command:
 
 
 class Link(Enum):
-    """How a clause depends on those before it; the value is the phrase of a language for it."""
+    """How a clause depends on those before it; the value is the phrase of a language for it.
+
+    `NEXT` and `ALSO`, which comes after another clause for the same case, need no phrase. What
+    depends on a condition ends with it, or where "otherwise" or "in any case" is said.
+    """
 
     NEXT = "next"
     THEN = "in_that_case"
+    ALSO = "also"
     OTHERWISE = "otherwise"
     IN_ANY_CASE = "in_any_case"
 
@@ -102,9 +108,12 @@ def links_of(clauses: Sequence[Clause]) -> list[Link]:
         links.append(link)
         if not isinstance(clause, IfThere):
             continue
-        if link in (Link.THEN, Link.OTHERWISE):
+        if link in (Link.THEN, Link.OTHERWISE, Link.ALSO):
             raise ValueError("a condition cannot depend on another one")
-        expected = [Link.THEN, *[Link.OTHERWISE] * clause.otherwise, Link.IN_ANY_CASE]
+        expected = [Link.THEN, *[Link.ALSO] * (clause.then - 1)]
+        if clause.otherwise:
+            expected += [Link.OTHERWISE, *[Link.ALSO] * (clause.otherwise - 1)]
+        expected.append(Link.IN_ANY_CASE)
     if expected and expected != [Link.IN_ANY_CASE]:
         raise ValueError("a condition is followed by what to do then, and otherwise if it says so")
     return links
@@ -118,10 +127,16 @@ def reference_of(clause: Clause) -> DoorReference | PlaceReference | None:
 
 
 def _places_of(clause: Clause) -> Iterator[object]:
-    """The values of a clause's fields; of a place that lies off another, that other place."""
+    """The values of a clause's fields; of a place that lies off another, that other place.
+
+    What a door is beside or before comes after the door.
+    """
     for name in field_names(type(clause)):
         value = getattr(clause, name)
-        yield value.place if isinstance(value, PlaceOffset) else value
+        place = value.place if isinstance(value, PlaceOffset) else value
+        yield place
+        if isinstance(place, DoorReference) and place.to is not None:
+            yield place.to
 
 
 def room_of(clause: Clause) -> str | None:

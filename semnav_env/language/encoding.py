@@ -170,11 +170,13 @@ def _clause(number: int, row: Row, rooms: Sequence[str], kinds: Sequence[type[Cl
 def _filled(
     kind: type[S], form: Form, options: Mapping[str, Options], row: Row, rooms: Sequence[str]
 ) -> Iterator[S]:
-    """The values of a form that a row may stand for.
+    """The values of a form that a row may stand for; none of a form for which it has no room.
 
     Raises:
         ValueError: the row has this form, but a number that cannot be.
     """
+    if not options.keys().isdisjoint(kind.untokened):
+        return
     if form.token[:1] in ((), (None,), (row[0],)) and _fits(_head(form), row):
         for values in _values(list(options.values()), row, rooms):
             yield kind(**form.fixed, **dict(zip(options, values, strict=True)))

@@ -85,18 +85,33 @@ STEP_LENGTH = 0.7
 """Length of a person's step, metres."""
 
 
+class DoorRelation(StrEnum):
+    """How a door is picked out by something else in the hallway: beside it, or before it."""
+
+    AT = "at"
+    BEFORE = "before"
+
+
 @dataclass(frozen=True, slots=True)
 class DoorReference(Spoken):
     """A door by its ordinal and side: "the second door on the right".
 
+    A token has no room for the relation and for what it is to.
+
     Attributes:
         ordinal: 1 for the first or next, n for the nth, `LAST` for the last, -n for the nth from
             the end, `OTHER` for the only other one, `ENTRY` for the one by which the robot came.
+            With `AT` 1 is the one nearest to what it is to.
         side: on which side; None if the command does not say, and for `ENTRY`.
+        relation: beside what the door is, or before what it is counted; None for neither.
+        to: what the relation is to; None without one.
     """
 
     ordinal: int = 1
     side: Side | None = None
+    relation: DoorRelation | None = None
+    to: PlaceReference | RoomReference | DoorReference | None = None
+    untokened: ClassVar[tuple[str, ...]] = ("relation", "to")
     forms: ClassVar[tuple[Form, ...]] = (
         form(
             *("door_entry", "entry", "door(entry)", (None, 0, DOOR)),
@@ -112,11 +127,26 @@ class DoorReference(Spoken):
             (None, 0, DOOR),
             side=Side,
         ),
+        *(
+            form(
+                f"door{said}_{relation}",
+                f"door {{ordinal}}{side}{symbol} {{to}}",
+                f"door({{ordinal}}{side.replace(' ', ',')},{relation} {{to}})",
+                (None, 0, DOOR),
+                relation=relation,
+                sampled=False,
+                **{"side": (Side.LEFT, Side.RIGHT)} if side else {},
+            )
+            for relation, symbol in ((DoorRelation.AT, ""), (DoorRelation.BEFORE, " before"))
+            for said, side in (("", ""), ("_{side}", " {side}"))
+        ),
     )
 
     def __post_init__(self) -> None:
         if self.ordinal == ENTRY and self.side is not None:
             raise ValueError("the door by which the robot came is one door: say no side")
+        if self.relation is not None or self.to is not None:
+            _check_relation(self)
         if self.ordinal not in (OTHER, ENTRY) or isinstance(self.ordinal, float):
             _check_ordinal("door", self.ordinal)
 
@@ -259,6 +289,20 @@ def check_room_name(name: str) -> None:
     """
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise ValueError(f"a room's name is of small letters and digits, not {shown(name)}")
+
+
+def _check_relation(door: DoorReference) -> None:
+    """Refuse a door beside or before something from which it cannot be counted."""
+    if door.relation is None or door.to is None:
+        raise ValueError("a door is beside or before something: give both relation and to")
+    if door.side not in (None, Side.LEFT, Side.RIGHT):
+        raise ValueError(f"a door {door.relation} something is left or right, not {door.side}")
+    if door.ordinal in (OTHER, ENTRY) or (door.relation is DoorRelation.AT and door.ordinal < 0):
+        raise ValueError(f"a door {door.relation} something is the nth, not {door.ordinal!r}")
+    if isinstance(door.to, DoorReference):
+        across = door.to.side in (Side.BEHIND, Side.OPPOSITE) or door.to.ordinal == ENTRY
+        if across or door.to.relation is not None:
+            raise ValueError(f"a door {door.relation} another one: {door.to} is not along the way")
 
 
 def _check_ordinal(what: str, ordinal: int) -> None:

@@ -98,7 +98,7 @@ def sample_clause(
 
 def _condition(rng: np.random.Generator, max_ordinal: int, may_be_otherwise: bool) -> IfThere:
     condition = _drawn(IfThere, rng, max_ordinal)
-    return condition if may_be_otherwise else replace(condition, otherwise=False)
+    return condition if may_be_otherwise else replace(condition, otherwise=0)
 
 
 def _drawn(kind: type[S], rng: np.random.Generator, max_ordinal: int) -> S:
@@ -130,8 +130,10 @@ def _sampled(kind: type[Spoken]) -> tuple[tuple[Form, dict[str, tuple[Option, ..
     """The forms of a class that are drawn, with the values of their fields that are drawn."""
     found = []
     for form, fields in open_fields(kind):
+        if not form.sampled:
+            continue
         drawn = {name: tuple(filter(_is_drawn, options)) for name, options in fields.items()}
-        if form.sampled and all(drawn.values()):
+        if all(drawn.values()):
             found.append((form, drawn))
     return tuple(found)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 from semnav_env.language.clauses import (
@@ -21,7 +22,7 @@ from semnav_env.language.clauses import (
     waits_of,
 )
 from semnav_env.language.command import Command
-from semnav_env.language.corpora.meanings import ENDS, meaning_of, normal
+from semnav_env.language.corpora.meanings import ENDS, meaning_of, normal, room_with_door
 from semnav_env.language.corpora.notation import Step, Steps
 from semnav_env.language.references import (
     ENTRY,
@@ -29,6 +30,7 @@ from semnav_env.language.references import (
     SOME,
     Distance,
     DoorReference,
+    DoorRelation,
     Place,
     PlaceOffset,
     PlaceReference,
@@ -115,22 +117,19 @@ def _distance(amount: float | str, unit: str = "") -> Distance:
 def _condition(step: Step) -> list[Clause]:
     """A condition with its clauses; `command_of_meaning` drops what then means another thing."""
     _, word, place, then, otherwise = step
+    place = room_with_door(word, place)
     if place[0] == "room":  # whether it is open is seen in front of it
         door, in_front = ("door", 1, None, None, None), ("to", place)
         enter = tuple(("through", door) if each == place else each for each in then)
         other = tuple(("through", door) if each == place else each for each in otherwise)
         return [*_clauses(in_front), *_condition(("if", word, door, enter, other))]
-    first = _place(place)[1]
-    if word == "closed" and _takes_next(first, then, otherwise):
-        return [GoToDoor(first)]
+    before, first = _place(place)
+    if normal((step,)) == normal((("through", place),)):  # the first open one
+        return [*before, GoToDoor(first)]
     absent = word in ("no", "closed")
-    inner = [clause for each in (*then, *otherwise) for clause in _clauses(each)]
-    return [IfThere(first, absent, bool(otherwise)), *inner]
-
-
-def _takes_next(first: Any, then: Steps, otherwise: Steps) -> bool:
-    next_door = isinstance(first, DoorReference) and first == DoorReference(1, first.side)
-    return bool(next_door and then and otherwise)
+    cases = [[clause for each in case for clause in _clauses(each)] for case in (then, otherwise)]
+    condition = IfThere(first, absent, len(cases[1]), len(cases[0]))
+    return [*before, condition, *cases[0], *cases[1]]
 
 
 def _place(place: Step) -> tuple[list[Clause], Any]:
@@ -170,4 +169,5 @@ def _relation(
         )
     if relation == "at" and door.side is Side.OPPOSITE:
         return [Follow(_place(first)[1])], door
-    raise ValueError(f"a door {relation} a place is not counted")
+    before, what = _place(first)
+    return before, replace(door, relation=DoorRelation(relation), to=what)

@@ -5,7 +5,8 @@ The equivalences, each true by the rules of docs/commands.md:
 1. "hallway" before a step that says how far, where to turn or which door, adds nothing.
 2. "hallway" at the end, and "cross" in a room, lead to the end.
 3. A turn after "hallway" or "past" is at the next turning; after "until" a place, it is there.
-4. "through D after P" is "past P; through D"; a door "between P and Q" is behind P and before Q.
+4. "through D after P" is "past P; through D"; a door "between P and Q" is behind P and before Q;
+    "if D after P" is decided behind P, too.
 5. Doors on one side count on: "past door(2,left); through door(1,left)" is the third on the left.
 6. "until D" or "to D", then through that door, is through D.
 7. Only open doors count, so a closed door is none, and any door is the first.
@@ -16,9 +17,10 @@ The equivalences, each true by the rules of docs/commands.md:
 11. A turn that depends on a place is made there.
 12. Places of a kind that are passed one after the other add up.
 13. "until D" is "to D" at the end and before a stop: the door is reached.
-14. Whether a room is open is seen in front of it, and its door is then the first one.
+14. Whether a room is open is seen in front of it, and its door is then the first one; "the door
+    at the kitchen is closed" is the same as "the kitchen is closed".
 15. "hallway for some" before a step that says where to adds nothing to "hallway".
-16. "through door(entry)" is "leave".
+16. "through door(entry)" and "leave door(entry)" are "leave".
 17. "hallway past P; hallway for 2 m" is "hallway until 2 m after P".
 18. Metres are driven to the next half.
 """
@@ -97,7 +99,7 @@ def _unfolded(step: Step) -> list[Step]:
             return [("leave",)]
         case ("leave", door):
             return _with_door(("through",), door)
-        case ("through" | "to" | "in" as verb, ("door", *_) as door):
+        case ("through" | "to" | "in" | "face" as verb, ("door", *_) as door):
             return _with_door((verb,), tuple(door))
         case ("hallway", "until" | "past" as relation, ("door", *_) as door):
             return _with_door(("hallway", relation), tuple(door))
@@ -106,6 +108,7 @@ def _unfolded(step: Step) -> list[Step]:
         case ("turn", way, ("door", *_) as door):
             return [*_with_door(("hallway", "until"), tuple(door)), ("turn", way, None)]
         case ("if", word, what, then, otherwise):
+            what = room_with_door(word, what)
             if what[0] == "room":
                 cases = (
                     tuple(("through", _FIRST) if each == what else each for each in case)
@@ -117,13 +120,21 @@ def _unfolded(step: Step) -> list[Step]:
             if absent == "no" and otherwise:
                 absent, then, otherwise = "there", otherwise, then
             then = _turned_at(what, then) if absent == "there" else then
-            first = _plain(what)[1]
+            before, first = _plain(what)
             if first[:2] == ("door", 1) and normal(then) == (("through", first),):
                 second = ("door", 2, *first[2:])
                 if normal(otherwise) == (("through", second),):
-                    return [("through", first)]  # the first open one
-            return [("if", absent, _plain(what)[1], normal(then), normal(otherwise))]
+                    return [*before, ("through", first)]  # the first open one
+            return [*before, ("if", absent, first, normal(then), normal(otherwise))]
     return [step]
+
+
+def room_with_door(word: str, what: Step) -> Step:
+    """What a condition is on: of "if the door at the kitchen is closed", the kitchen."""
+    match word, what:
+        case "closed" | "open", ("door", 1, None, "at", (("room", _) as room,)):
+            return tuple(room)
+    return what
 
 
 def _turned_at(place: Step, then: Steps) -> Steps:
@@ -198,7 +209,7 @@ def _append(found: list[Step], step: Step) -> None:
         case ("hallway", "past", ("door", int(n), side, None, None)), (
             *verb,
             ("door", int(m), other, relation, places),
-        ) if side == other and n > 0 and m > 0:
+        ) if side == other and n > 0 and m > 0 and relation != "at":
             found.pop()
             _append(found, (*verb, ("door", n + m, side, relation, places)))
         case ("hallway", "until", door), ("through" | "to" | "in" as verb, again) if _same_door(

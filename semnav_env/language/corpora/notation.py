@@ -49,8 +49,10 @@ def notation_of(command: Command) -> str:
         clause = clauses.pop(0)
         step = _written(clause)
         if isinstance(clause, IfThere):
-            step += f": {_written(clauses.pop(0))}"
-            step += f" else: {_written(clauses.pop(0))}" if clause.otherwise else ""
+            then, otherwise = clauses[: clause.then], clauses[clause.then :][: clause.otherwise]
+            del clauses[: clause.then + clause.otherwise]
+            step += f": {'; '.join(map(_written, then))}"
+            step += f" else: {'; '.join(map(_written, otherwise))}" if otherwise else ""
             step += " end"
         steps.append(step)
     return "; ".join(steps)
@@ -210,6 +212,8 @@ def _door(inside: str) -> Step:
             continue  # only open doors count
         else:
             relation, rest = option.split(" ", 1)
+            if relation == "opposite":
+                side, relation = "opposite", "at"
             places = tuple(read_place(each) for each in rest.split(" and "))
     return ("door", ordinal, side, relation, places)
 

@@ -18,10 +18,14 @@ def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int
     """
     clause = clauses[index]
     if isinstance(clause, IfThere):
-        return index + 1 if met else index + 2
-    condition = clauses[index - 1] if index else None
-    skips = isinstance(condition, IfThere) and condition.otherwise
-    return index + (2 if skips else 1)
+        return index + 1 + (0 if met else clause.then)
+    at = _condition_over(clauses, index)
+    if at is None:
+        return index + 1
+    match clauses[at]:
+        case IfThere(otherwise=otherwise, then=then) if index == at + then:
+            return index + 1 + otherwise
+    return index + 1
 
 
 def in_context(clauses: Sequence[Clause], index: int) -> Clause:
@@ -43,7 +47,7 @@ def is_only_a_direction(clauses: Sequence[Clause], index: int) -> bool:
     """
     if clauses[index] not in (Follow(), Follow(SOME)) or index + 1 == len(clauses):
         return False
-    if _hangs_on_condition(clauses, index):
+    if _case(clauses, index) != _case(clauses, index + 1):
         return False
     match clauses[index + 1]:
         case Turn(turning, _, degrees):
@@ -60,7 +64,7 @@ def comes_after_corridor(clauses: Sequence[Clause], index: int) -> bool:
 
     This is so after "go down the hallway" and after "go past the second door".
     """
-    if index == 0 or _hangs_on_condition(clauses, index - 1):
+    if index == 0 or _case(clauses, index - 1) != _case(clauses, index):
         return False  # what hangs on a condition may not have been done
     before, clause = clauses[index - 1 : index + 1]
     aside = isinstance(clause, Turn) and clause.turning is not Turning.AROUND
@@ -68,8 +72,17 @@ def comes_after_corridor(clauses: Sequence[Clause], index: int) -> bool:
     return passed or is_only_a_direction(clauses, index - 1)
 
 
-def _hangs_on_condition(clauses: Sequence[Clause], index: int) -> bool:
-    """Whether a clause is one of the two branches of a condition."""
-    then = index > 0 and isinstance(clauses[index - 1], IfThere)
-    condition = clauses[index - 2] if index > 1 else None
-    return then or (isinstance(condition, IfThere) and condition.otherwise)
+def _case(clauses: Sequence[Clause], index: int) -> bool | None:
+    """The case of a condition for which a clause is; None if it depends on none."""
+    at = _condition_over(clauses, index)
+    condition = None if at is None else clauses[at]
+    return index <= (at or 0) + condition.then if isinstance(condition, IfThere) else None
+
+
+def _condition_over(clauses: Sequence[Clause], index: int) -> int | None:
+    """Index of the condition on which a clause depends; None if there is none."""
+    for at in range(min(index, len(clauses)) - 1, -1, -1):
+        before = clauses[at]
+        if isinstance(before, IfThere):
+            return at if index <= at + before.then + before.otherwise else None
+    return None

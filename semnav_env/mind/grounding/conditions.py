@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from semnav_env.language.clauses import IfThere
 from semnav_env.language.references import OTHER, DoorReference, Place, PlaceReference, Side
-from semnav_env.mind.grounding.find import named_doors
+from semnav_env.mind.grounding.errors import GroundingError, UnclearError
+from semnav_env.mind.grounding.find import find_door, named_doors
 from semnav_env.mind.grounding.junctions import junctions_ahead
 from semnav_env.mind.grounding.opposite import ORDINALS_OF_ONE, doors_opposite
 from semnav_env.mind.grounding.search import Known, Searching
@@ -24,6 +25,11 @@ def is_met(condition: IfThere, situation: Situation) -> Known[bool] | Searching:
             return found
         there = bool(found.value) and condition.what.ordinal in ORDINALS_OF_ONE
         return Known(there is not condition.absent)
+    if isinstance(condition.what, DoorReference) and condition.what.relation is not None:
+        is_there = _is_related_there(condition.what, situation)
+        if isinstance(is_there, Searching):
+            return is_there
+        return Known(is_there is not condition.absent)
     (count, more), wanted = _count(condition.what, situation), condition.what.ordinal
     from_start, all_known = wanted > OTHER, situation.seen_to_end or not more
     if (from_start or all_known) and count >= max(1, abs(wanted)):
@@ -33,6 +39,17 @@ def is_met(condition: IfThere, situation: Situation) -> Known[bool] | Searching:
     else:
         return situation.go_on(condition.what)
     return Known(there is not condition.absent)
+
+
+def _is_related_there(what: DoorReference, situation: Situation) -> bool | Searching:
+    """Whether a door beside or before something is there; of two that are equally near, one is."""
+    try:
+        found = find_door(what, situation)
+    except UnclearError:
+        return True
+    except GroundingError:
+        return False
+    return found if isinstance(found, Searching) else True
 
 
 def _count(what: DoorReference | PlaceReference, situation: Situation) -> tuple[int, bool]:

@@ -4,9 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from semnav_env.language.clauses import Turning
-from semnav_env.language.references import ENTRY, OTHER, DoorReference, PlaceReference, Side
+from semnav_env.language.references import (
+    ENTRY,
+    OTHER,
+    DoorReference,
+    DoorRelation,
+    Place,
+    PlaceReference,
+    RoomReference,
+    Side,
+)
 from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.mind.grounding.door_geometry import heading_through
 from semnav_env.mind.grounding.errors import GroundingError, UnclearError
@@ -14,6 +24,9 @@ from semnav_env.mind.grounding.junctions import junctions_ahead
 from semnav_env.mind.grounding.search import Known, Searching
 from semnav_env.mind.grounding.situation import Situation, is_behind
 from semnav_features.corridor import Junction
+
+if TYPE_CHECKING:
+    from semnav_env.mind.grounding.related_doors import HallSpan
 
 
 def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
@@ -33,6 +46,8 @@ def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDo
         return Known(find_entry(reference, situation))
     if reference.side is Side.OPPOSITE:
         return _find_opposite(reference, situation)
+    if reference.relation is not None:
+        return _find_related(reference, situation)
     doors, more = named_doors(reference, situation)
     if more and reference.ordinal <= OTHER and not situation.seen_to_end:
         return situation.go_on(reference)
@@ -123,6 +138,59 @@ def _find_opposite(
     raise GroundingError(f"no door opposite: none faces {here}")
 
 
+def _find_related(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
+    """Find a door beside or before something, once no nearer one can be hidden."""
+    from semnav_env.mind.grounding import related_doors as related  # few commands need it
+
+    if isinstance(reference.to, RoomReference):
+        from semnav_env.mind.grounding.room_hallway import hallway_of
+
+        hallway = hallway_of(reference, situation)
+        if isinstance(hallway, Searching):
+            return hallway
+        situation = hallway
+    span = _span_of(reference, situation)
+    if isinstance(span, Searching):
+        return span
+    doors = related.related_doors(reference, span.value, situation)
+    index = _index(reference, len(doors))
+    found = doors[index] if 0 <= index < len(doors) else None
+    start, until = related.decisive_stretch(reference, span.value, found, situation)
+    side = related.counted_side(reference, span.value)
+    if not situation.complete and _may_hide_a_door(situation, side, until, start):
+        return situation.go_on(f"doors {reference.relation} {reference.to}", until)
+    if found is None:
+        there = f"there are {len(doors)}" if len(doors) != 1 else "there is 1"
+        raise GroundingError(f"no {str(reference).removeprefix('the ')}: {there}")
+    if situation.complete and reference.relation is DoorRelation.AT:
+        related.check_nearest(reference, span.value, doors, index, situation)
+    elif situation.complete:
+        _check_order(reference, doors, index, situation)
+    return Known(found)
+
+
+def _span_of(reference: DoorReference, situation: Situation) -> Known[HallSpan] | Searching:
+    """Where that lies along the hallway to which a door has a relation."""
+    from semnav_env.mind.grounding.related_doors import HallSpan  # few commands need it
+
+    to, end = reference.to, situation.corridor.end
+    if isinstance(to, RoomReference):
+        from semnav_env.mind.grounding.room_hallway import room_span
+
+        return Known(room_span(reference, situation))
+    if isinstance(to, DoorReference):
+        door = find_door(to, situation)
+        if isinstance(door, Searching):
+            return door
+        counted = door.value
+        side = None if counted.side is Side.AHEAD else counted.side
+        return Known(HallSpan(counted.along, counted.along, counted.door, side))
+    if to is not None and to.place is Place.END:
+        return situation.go_on(to) if math.isinf(end) else Known(HallSpan(end, end))
+    found = find_junction(to, None, situation)
+    return found if isinstance(found, Searching) else Known(HallSpan.of_junction(found.value))
+
+
 def _index(reference: DoorReference, count: int) -> int:
     """Index of the named door among `count` doors in the order of travel; out of range if none.
 
@@ -152,11 +220,13 @@ def _check_order(
             raise UnclearError(f"{reference}: there is one {sides} there; {say} on which side")
 
 
-def _may_hide_a_door(situation: Situation, side: Side | None, until: float) -> bool:
-    """Whether a part of the side between the robot and `until` is still unseen."""
+def _may_hide_a_door(
+    situation: Situation, side: Side | None, until: float, after: float = 0.0
+) -> bool:
+    """Whether a part of the side between the robot, or `after`, and `until` is still unseen."""
     if situation.has_come(until):
         return False  # what cannot be seen from there, no looking will show
-    start, corridor = max(0.0, situation.progress), situation.corridor
+    start, corridor = max(after, 0.0, situation.progress), situation.corridor
     for left, own_side in ((True, Side.LEFT), (False, Side.RIGHT)):
         if side in (None, own_side) and math.isfinite(corridor.unseen(left, start, until)):
             return True

@@ -26,7 +26,7 @@ def search_goal(search: Searching) -> SeekGoal | ReachGoal:
     """
     if search.on_the_spot:
         return ReachGoal(search.lookout, 0.0, 0.0, f"looking for {search.what}")
-    return SeekGoal(search.lookout, search.what, corridor=search.corridor)
+    return SeekGoal(search.lookout, search.what, corridor=search.corridor, places=search.places)
 
 
 def is_search(goal: Goal) -> bool:

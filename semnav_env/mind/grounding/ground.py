@@ -22,8 +22,9 @@ from semnav_env.language.references import ENTRY, DoorReference, PlaceOffset, Ro
 from semnav_env.mind.grounding.corridor_goals import follow_goal, turn_goal
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.goal import Goal, StopGoal
-from semnav_env.mind.grounding.goals import door_goal, leave_goal, way_goal
+from semnav_env.mind.grounding.goals import door_goal, leave_goal, search_goal, way_goal
 from semnav_env.mind.grounding.own_clause import GroundedClause
+from semnav_env.mind.grounding.search import Searching
 from semnav_env.mind.grounding.situation import Situation
 from semnav_env.mind.grounding.ways import Way
 from semnav_env.rules import Rules
@@ -74,6 +75,26 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
         GroundingError: the referent cannot be there, or the clause is a condition.
     """
     situation = situation.towards(reference_of(clause))
+    match reference_of(clause):
+        case DoorReference(to=RoomReference()) as reference if not isinstance(clause, Face):
+            return _goal_by_room(clause, reference, situation)
+    return _goal_in_hallway(clause, situation)
+
+
+def _goal_by_room(clause: Clause, reference: DoorReference, situation: Situation) -> Goal:
+    """The goal of a clause with a door beside or before a named room, to which a way leads."""
+    from semnav_env.mind.grounding.room_hallway import hallway_of, led_along  # here, as it is rare
+
+    hallway = hallway_of(reference, situation)
+    if isinstance(hallway, Searching):
+        return search_goal(hallway)
+    goal = _goal_in_hallway(clause, hallway)
+    if hallway is situation or situation.way is None or not situation.complete:
+        return goal  # a robot that is in the hallway needs no way
+    return led_along(goal, situation.way, hallway)
+
+
+def _goal_in_hallway(clause: Clause, situation: Situation) -> Goal:
     match clause:
         case GoToDoor(DoorReference(ordinal), Approach.THROUGH) if (
             ordinal == ENTRY and situation.entry is None

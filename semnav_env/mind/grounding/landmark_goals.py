@@ -48,6 +48,7 @@ def follow_to_room(clause: Follow, situation: Situation) -> ReachGoal:
         (x, y, along[2]),
         accepted.way_distance,
         because=f"go on {'behind' if clause.past else 'to'} {clause.until}",
+        beside=door,
         offset_tolerance=accepted.way_offset,
         places=(*way.places[: last + 1], (x, y)),
     )

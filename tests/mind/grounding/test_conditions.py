@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import pickle
+from dataclasses import replace
+
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
 from semnav_env.env import SemNavEnv
 from semnav_env.judge import plan_goals
@@ -12,6 +16,8 @@ from semnav_env.language import (
     CommandError,
     DoorReference,
     Follow,
+    GoBack,
+    GoToDoor,
     IfThere,
     Side,
     Stop,
@@ -19,15 +25,23 @@ from semnav_env.language import (
     Turning,
     correct,
     encode,
+    from_program,
     read,
+    to_program,
     token_mask,
 )
+from semnav_env.language.clauses import MAX_BRANCHES
 from semnav_env.language.command import Link, links_of, room_of
+from semnav_env.language.corpora.meanings import meaning_of, normal
+from semnav_env.language.corpora.notation import notation_of, read_meaning
+from semnav_env.language.translating.masking import masked
+from semnav_env.language.translating.programs import command_of, symbols_of
 from semnav_env.mind.grounding import PassGoal, SeekGoal, StopGoal
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.world.maps import load_floor_plan
 from semnav_features.frames import Pose
 from semnav_features.scene import Scene
+from studies.translating.programs import command_of_meaning
 from tests.support.command_strategies import commands
 from tests.support.hand_made import X_JUNCTION, corridor
 
@@ -226,3 +240,145 @@ def test_an_episode_takes_a_command_in_german() -> None:
     assert info["command"] == "go through the second door on the right"
     with pytest.raises(CommandError, match="--language german"):
         env.reset(seed=0, options={**options, "language": "en"})
+
+
+RIGHT_DOOR = DoorReference(1, Side.RIGHT)
+NINTH_DOOR = DoorReference(9, Side.LEFT)
+LEFT_TURN, RIGHT_TURN = Turn(Turning.LEFT), Turn(Turning.RIGHT)
+
+
+@pytest.mark.parametrize(
+    ("condition", "done"),
+    [
+        (IfThere(RIGHT_DOOR, then=2, otherwise=1), [1, 2, 4, 5]),
+        (IfThere(NINTH_DOOR, then=2, otherwise=1), [3, 4, 5]),
+        (IfThere(RIGHT_DOOR, then=1, otherwise=2), [1, 4, 5]),
+        (IfThere(NINTH_DOOR, then=1, otherwise=2), [2, 3, 4, 5]),
+        (IfThere(NINTH_DOOR, then=3), [4, 5]),
+        (IfThere(NINTH_DOOR, absent=True, then=3), [1, 2, 3, 4, 5]),
+        (IfThere(NINTH_DOOR, then=5), []),
+    ],
+)
+def test_so_many_clauses_are_for_each_case(condition: IfThere, done: list[int]) -> None:
+    """Robot and judge go through the same clauses."""
+    rest = (LEFT_TURN, RIGHT_TURN, LEFT_TURN, Turn(Turning.AROUND), Stop())
+    follower = Follower(Command((condition, *rest)), complete=True)
+    follower.start(DOORS, START)
+    seen = []
+    while not follower.done:
+        seen.append(follower.active)
+        follower.skip_to_next(DOORS)
+    assert seen == done
+    assert follower.skipped == frozenset(range(1, 6)) - frozenset(done)
+
+
+def test_the_judge_skips_all_clauses_of_the_other_case() -> None:
+    enter = GoToDoor(DoorReference(2, Side.RIGHT))
+    for ordinal, names in ((2, ["west_south_2"]), (9, [])):
+        there = IfThere(DoorReference(ordinal, Side.RIGHT), then=2, otherwise=2)
+        command = Command((there, enter, Stop(), Turn(Turning.AROUND), Stop()))
+        first, last = plan_goals(PLAN, command, WEST)
+        assert isinstance(last, StopGoal)
+        assert [first.door.name for _ in names if isinstance(first, PassGoal)] == names
+
+
+def test_a_turn_within_a_case_completes_the_hallway_before_it() -> None:
+    """The hallway before "otherwise" leads to its end; before a turn of its case, to that turn."""
+    crossing = DoorReference(1, Side.LEFT)
+    for then, turns in ((2, True), (1, False)):
+        clauses = (IfThere(crossing, absent=True, then=then, otherwise=2 - then), Follow())
+        follower = Follower(Command((*clauses, LEFT_TURN)), complete=True)
+        follower.start(X_JUNCTION, START)
+        assert (follower.goal.junction is not None) is turns
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "if you see the first door on the right, turn left and stop, otherwise turn right and "
+        "turn left and wait for 2 seconds, in any case go back to the start",
+        "falls du die erste Tür rechts siehst, bieg links ab und halt an, sonst bieg rechts ab und "
+        "bieg links ab und warte 2 Sekunden, in jedem Fall fahr zurück zum Start",
+    ],
+)
+def test_what_depends_on_a_condition_ends_where_the_next_case_is_said(said: str) -> None:
+    condition = IfThere(RIGHT_DOOR, then=2, otherwise=3)
+    then, otherwise = (LEFT_TURN, Stop()), (RIGHT_TURN, LEFT_TURN, Stop(2))
+    command = Command((condition, *then, *otherwise, GoBack()))
+    assert said in (command.say("en"), command.say("de"))
+
+
+@given(
+    st.booleans(), st.integers(1, MAX_BRANCHES), st.integers(0, MAX_BRANCHES - 1), st.integers(0, 9)
+)
+def test_a_condition_over_several_clauses_is_the_same_in_every_notation(
+    absent: bool, then: int, otherwise: int, seconds: int
+) -> None:
+    otherwise = min(otherwise, MAX_BRANCHES - then)
+    condition = IfThere(RIGHT_DOOR, absent, otherwise, then)
+    rest = (LEFT_TURN, Stop(seconds), Follow(), RIGHT_TURN, GoBack(), Stop(), LEFT_TURN)
+    command = Command((condition, *rest[: then + otherwise]))
+    assert from_program(to_program(command)) == command
+    assert pickle.loads(pickle.dumps(command)) == command
+    assert meaning_of(command) == read_meaning(notation_of(command))
+    text = masked(str(command), ())
+    assert command_of(symbols_of(command, text), text) == command
+    case = int(encode(command)[0, 1])
+    assert case == int(
+        encode(
+            Command(
+                (
+                    replace(condition, then=1, otherwise=bool(otherwise)),
+                    *rest[: 1 + bool(otherwise)],
+                )
+            )
+        )[0, 1]
+    )
+
+
+def test_programs_of_old_still_load() -> None:
+    what = {"kind": "DoorReference", "ordinal": 1, "side": "right"}
+    program = [
+        {"kind": "IfThere", "what": what, "absent": False, "otherwise": True},
+        {"kind": "Stop"},
+        {"kind": "GoBack"},
+    ]
+    assert from_program(program).clauses[0] == IfThere(RIGHT_DOOR, otherwise=1)
+    assert to_program(from_program(program))[0]["otherwise"] == 1
+
+
+@pytest.mark.parametrize(
+    ("counts", "because"),
+    [
+        ({"then": 0}, "then is 1 to 7 clauses, not 0"),
+        ({"otherwise": -1}, "otherwise is 0 to 7 clauses, not -1"),
+        ({"then": 1.5}, r"then is 1 to 7 clauses, not 1\.5"),
+        ({"then": 4, "otherwise": 4}, "at most 7 clauses depend"),
+    ],
+)
+def test_a_number_of_clauses_that_cannot_be_is_refused(counts: dict, because: str) -> None:
+    with pytest.raises(ValueError, match=because):
+        IfThere(RIGHT_DOOR, **counts)
+
+
+def test_too_few_clauses_and_a_condition_in_a_condition_are_refused() -> None:
+    with pytest.raises(ValueError, match="followed by what to do then"):
+        Command((IfThere(RIGHT_DOOR, then=2), Stop()))
+    with pytest.raises(ValueError, match="cannot depend on another"):
+        Command((IfThere(RIGHT_DOOR, then=3), Stop(), IfThere(RIGHT_DOOR), Stop()))
+
+
+@pytest.mark.parametrize(
+    "meaning",
+    [
+        "if door(1,left): through door(1,left); turn right; stop else: back; wait 3 end",
+        "if closed door(1): back else: through door(1) end",
+        "if closed door(2,left): to door(2,left); wait 30 else: through door(2,left) end",
+        "if closed room(kitchen): stop else: room(kitchen) end",
+        "if open door(1,at room(hall)): room(hall) else: back end",
+    ],
+)
+def test_conditions_over_several_clauses_that_people_say_have_a_command(meaning: str) -> None:
+    command = command_of_meaning(read_meaning(meaning))
+    assert command is not None
+    assert normal(meaning_of(command)) == normal(read_meaning(meaning))
