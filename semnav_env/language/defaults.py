@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from semnav_env.language.clauses import Approach, Clause, GoToDoor, Stop
+from semnav_env.language.clauses import Approach, Clause, GoToDoor, Pace, Stop
 from semnav_env.language.command import Command, Link, links_of
 
 
@@ -41,5 +41,6 @@ def _approached(command: Command, approach: Approach, by_default: bool = False) 
 
 def _end(command: Command) -> int:
     """Which clause is the last that does more than to stop; the first if none does."""
-    moving = [at for at, clause in enumerate(command.clauses) if not isinstance(clause, Stop)]
+    still = Stop | Pace
+    moving = [at for at, clause in enumerate(command.clauses) if not isinstance(clause, still)]
     return moving[-1] if moving else 0

@@ -13,6 +13,7 @@ from semnav_env.language.clauses import (
     GoToRoom,
     IfThere,
     Leave,
+    Pace,
     SearchHouse,
     Stop,
     Turn,
@@ -63,7 +64,8 @@ def ground(
         ValueError: a door of the scene has no width, and another door may lie behind it.
     """
     here = begin if pose is None else pose
-    situation = Situation(scene, begin, here, complete, after_corridor, way, rules=rules)
+    wall = clause.along if isinstance(clause, Follow) else None
+    situation = Situation(scene, begin, here, complete, after_corridor, way, wall=wall, rules=rules)
     return goal_of(clause, situation)
 
 
@@ -74,6 +76,16 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
         GroundingError: the referent cannot be there, or the clause is a condition.
     """
     situation = situation.towards(reference_of(clause))
+    goal = _goal_of(clause, situation)
+    if situation.wall is None:
+        return goal
+    from semnav_env.mind.grounding.along_wall import kept_along  # here, as it is rare
+
+    return kept_along(goal, situation.wall, situation)
+
+
+def _goal_of(clause: Clause, situation: Situation) -> Goal:
+    """The goal of a clause, wherever in the hallway the robot is to keep."""
     match clause:
         case GoToDoor(DoorReference(ordinal), Approach.THROUGH) if (
             ordinal == ENTRY and situation.entry is None
@@ -105,6 +117,8 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
             return backing_up_goal(clause, situation)
         case IfThere():
             raise GroundingError(f"{clause}: a condition leads nowhere by itself")
+        case Pace():
+            raise GroundingError(f"{clause}: a pace leads nowhere by itself")
         case SearchHouse():
             rest = situation.rules.success.search_rest_seconds
             return StopGoal(situation.begin, str(clause), rest, roams=True)
