@@ -37,22 +37,22 @@ def kept_along(goal: Goal, wall: Side, situation: Situation) -> Goal:
     rules = situation.rules.grounding
     begin = max(0.0, corridor.along(situation.begin[:2]))
     end, offset = to_local(corridor.frame, goal.pose[:2])
-    turns_off = isinstance(goal, PassGoal) or (isinstance(goal, ReachGoal) and goal.fixes_heading)
-    if turns_off or abs(offset) > corridor.half_width:
+    turns = isinstance(goal, ReachGoal) and goal.fixes_heading
+    if isinstance(goal, PassGoal) or turns or abs(offset) > corridor.half_width:
         lane = _lane(corridor, wall, begin, max(begin, end - LEAVES_LANE), rules)
         return replace(goal, wall=wall, places=(*lane, goal.pose[:2]))
     lane = _lane(corridor, wall, begin, end, rules)
     pose = (*lane[-1], goal.pose[2])
     if isinstance(goal, SeekGoal):
         return replace(goal, wall=wall, places=lane, pose=pose)
-    half_width = max(corridor.half_width, goal.distance_tolerance)
+    across = corridor.half_width + abs(to_local(corridor.frame, pose[:2])[1])
     return replace(
         goal,
         wall=wall,
         places=lane,
         pose=pose,
         onward=goal.next_begin,
-        offset_tolerance=half_width,
+        offset_tolerance=max(across, goal.distance_tolerance),
     )
 
 
