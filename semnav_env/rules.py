@@ -81,6 +81,8 @@ class GroundingRules:
         way_drift: largest offset from a known way that the robot keeps, metres: the drift of
             odometry.
         straight_way_angle: a known way that turns by less than this leads straight on, radians.
+        wall_distance: distance of the robot's centre from the wall along which it keeps, metres:
+            half a body and room to drive at its usual speed.
         jamb_margin: distance beside a seen jamb at which a crossing still counts for the robot, and
             behind the door that the robot must be, metres: seen jambs are not exact.
         care: share of a success tolerance within which the robot itself takes a goal as reached;
@@ -122,6 +124,7 @@ class GroundingRules:
     places_ahead: Count = 2
     way_drift: Length = 1.5
     straight_way_angle: Angle = 0.6
+    wall_distance: Length = 0.6
     jamb_margin: Length = 0.3
     care: Share = 0.5
 
@@ -168,6 +171,13 @@ class SuccessRules:
             taken a wrong turn, metres: its body has left the corridor.
         missed_turn_distance: a robot farther than this behind the junction at which it should turn
             has taken a wrong turn, metres: twice `wrong_arm_depth`.
+        wall_share: least share of the way that the robot drives on the side of the hallway's middle
+            along whose wall it is to keep.
+        wall_entry: the way in the hallway that does not count for that, metres: the robot gets over
+            to the wall.
+        wall_least: a way there that is shorter after that does not count either, metres.
+        wall_room: a hallway counts for that if its sides are this much farther from its middle than
+            `wall_distance`, metres: in a narrower one no side can be told.
         passed_arm_distance: an arm counts as passed, and not as a wrong turn, if its far edge lies
             no farther than this ahead of the pose at which the clause began, metres.
     """
@@ -189,6 +199,10 @@ class SuccessRules:
     search_rest_seconds: Annotated[float, Bounds(0.0, 1e6, "s")] = 20.0
     wrong_arm_depth: Length = 1.2
     missed_turn_distance: Length = 2.4
+    wall_share: Share = 0.5
+    wall_entry: Length = 2.0
+    wall_least: Length = 1.0
+    wall_room: Length = 0.1
     passed_arm_distance: Length = 0.5
 
     def __post_init__(self) -> None:

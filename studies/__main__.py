@@ -15,6 +15,7 @@ STUDIES = CommandTable(
         "features": ("studies.features.command", "the feature extractor against truth"),
         "grids": ("studies.grids", "kernels on grids beside those of SciPy"),
         "lines": ("studies.lines.command", "lines on real scans, walls on simulated ones"),
+        "manner": ("studies.manner.command", "success at each pace and along each wall"),
         "matching": ("studies.matching.command", "how exactly scans are matched"),
         "offices": ("studies.offices", "check generated offices, and time them"),
         "places": ("studies.places.command", "corridors told from other places"),

@@ -13,7 +13,14 @@ from semnav_agents.base import Observation
 from semnav_agents.pilot import Pilot
 from semnav_agents.planning.driver import NO_POINTS
 from semnav_agents.planning.obstacles import points_of_segments
-from semnav_env.mind.observations import EntryObservation, Moment, SeenGoal, read_odometry
+from semnav_env.mind.observations import (
+    EntryObservation,
+    Moment,
+    PaceEntry,
+    SeenGoal,
+    read_odometry,
+    read_pace,
+)
 from semnav_env.mind.observations.layout import scan_space
 from semnav_env.robots import RobotSpec
 from semnav_env.world.maps import FloorPlan, load_floor_plan
@@ -52,7 +59,7 @@ class OracleAgent:
     draw, people above all, it sees with the lidar if the observation has a scan, and waits for it.
     """
 
-    observation = EntryObservation("truth", extra=(ExactScan(),))
+    observation = EntryObservation("truth", extra=(ExactScan(), PaceEntry()))
 
     def __init__(self) -> None:
         self._told: FloorPlan | None = None
@@ -80,7 +87,8 @@ class OracleAgent:
         doors = points_to_local(pose, self._doors).reshape(-1, 4)
         goal = SeenGoal.read(observation["goal"])
         moving = self._not_drawn(observation["scan"], pose) if "scan" in observation else NO_POINTS
-        return self._pilot.act(self._points, doors, goal, pose, velocity, moving)
+        pace = read_pace(observation)
+        return self._pilot.act(self._points, doors, goal, pose, velocity, moving, pace)
 
     def _not_drawn(self, ranges: FloatArray, pose: Pose) -> FloatArray:
         """The hits on what the plan does not draw, world frame, shape (n, 2)."""

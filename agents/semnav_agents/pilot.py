@@ -13,6 +13,7 @@ from semnav_agents.planning.exit_via_door import ExitViaDoor
 from semnav_agents.planning.follower import Steering
 from semnav_agents.planning.planner import DriveTarget
 from semnav_env.approach import DoorSide
+from semnav_env.language.clauses import Speed
 from semnav_env.mind.grounding import GoalKind
 from semnav_env.mind.observations import SeenGoal
 from semnav_env.robots import RobotSpec
@@ -71,6 +72,7 @@ class Pilot:
         pose: Pose,
         velocity: Twist,
         moving: FloatArray = NO_POINTS,
+        pace: Speed | None = None,
     ) -> NDArray[np.float32]:
         """The next action.
 
@@ -81,7 +83,9 @@ class Pilot:
             pose: of the robot's centre.
             velocity: of the robot's centre.
             moving: obstacles that move, shape (m, 2), in the frame of `pose`.
+            pace: how fast to drive, by what was said.
         """
+        self.driver.take_pace(pace)
         if goal.kind is GoalKind.STOP:
             return self._action(0.0, 0.0, 0.0)
         if self._is_stuck(velocity):

@@ -11,7 +11,14 @@ from semnav_agents.base import Observation
 from semnav_agents.pilot import Pilot
 from semnav_agents.planning.moving import MovingHits
 from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
-from semnav_env.mind.observations import SeenGoal, read_odometry, table
+from semnav_env.mind.observations import (
+    EntryObservation,
+    PaceEntry,
+    SeenGoal,
+    read_odometry,
+    read_pace,
+    table,
+)
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import compose, points_to_parent
 from semnav_features.lidar_spec import LidarSpec
@@ -20,10 +27,10 @@ from semnav_features.lidar_spec import LidarSpec
 class ScriptedAgent:
     """Drives to the observed goal around obstacles that the lidar or the body has hit.
 
-    Goal, odometry and scan come from the observation; body and lidar from `reset`.
+    Goal, pace, odometry and scan come from the observation; body and lidar from `reset`.
     """
 
-    observation = "all"
+    observation = EntryObservation("all", extra=(PaceEntry(),))
 
     def __init__(self) -> None:
         self._obstacles, self._moving = ObstacleMemory(), MovingHits()
@@ -55,4 +62,5 @@ class ScriptedAgent:
         bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
         walls = points_to_parent(pose, bumps).reshape(-1, 4)
         points = np.vstack((self._obstacles.points(), points_of_segments(walls)))
-        return self._pilot.act(points, doors, goal, pose, velocity, moving)
+        pace = read_pace(observation)
+        return self._pilot.act(points, doors, goal, pose, velocity, moving, pace)

@@ -23,6 +23,7 @@ from semnav_env.judge.judge_record import (
 from semnav_env.judge.judge_state import (
     Period,
     first_state,
+    left_the_wall,
     limit_goal,
     put_motion,
     read_period,
@@ -84,6 +85,7 @@ class Judge:
         self.failure: Verdict | None = None
         self.truncated = False
         self.crossed: list[str] = []
+        self._failed: int | None = None  # the clause that was not carried out in full
         self._met: list[Goal] = []
         self._state, self._arms, self._distances = first_state(mission), NO_ARMS, NO_DISTANCES
         self.record = self._join()
@@ -198,6 +200,7 @@ class Judge:
         clause, goal, crossed = self.follower.active, self._goal, None
         state = self._state[0]
         pose: Pose = (float(state["x"]), float(state["y"]), float(state["heading"]))
+        strayed = left_the_wall(self._state, self.mission.rules.success)
         completed = self.follower.think(events, self._scene, pose)
         if events & DOOR_CROSSED:
             crossed = self.mission.floor_plan.doors[int(state["crossed_door"])]
@@ -207,6 +210,10 @@ class Judge:
             self._head_for(self.follower.goal)
         if (self.failure is None and not self.follower.done) or completed:
             self.failure = self._fault(events, clause if completed else None, goal, crossed)
+            if completed and strayed and self.failure is None:
+                self.failure = Verdict.INCOMPLETE
+            if self.failure is Verdict.INCOMPLETE:
+                self._failed = clause
         return completed and self.failure is not Verdict.INCOMPLETE
 
     def _fault(
@@ -236,7 +243,8 @@ class Judge:
 
     def _note_verdicts(self) -> None:
         clauses, follower = len(self.mission.command.clauses), self.follower
-        found = verdicts(clauses, follower.active, self.failure, follower.skipped)
+        active = follower.active if self._failed is None else self._failed
+        found = verdicts(clauses, active, self.failure, follower.skipped)
         self.verdicts = tuple(map(str, found))
 
     def _scene(self) -> Scene:
@@ -246,7 +254,7 @@ class Judge:
         """Tell the record of a new goal."""
         self._goal = goal
         clauses, rules = self.mission.command.clauses, self.mission.rules.success
-        limit_goal(self._state, goal, rules)
+        limit_goal(self._state, goal, self.mission.rules)
         done = self.follower.done
         self._arms = NO_ARMS if done else wrong_arms(clauses[self.follower.active], goal, rules)
         set_arms(self.record, self._arms)

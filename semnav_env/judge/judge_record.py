@@ -78,10 +78,25 @@ def judge_motion(record: JudgeRecord) -> int:
         events |= DOOR_CROSSED
     if _is_astray(record.arms, state):
         events |= ASTRAY
+    if state.wall_side != 0.0:
+        _measure_wall(state)
     state.remaining_before, state.remaining = state.remaining, _remaining(record, state)
     state.crossed_door = crossed
     _write_period(state)
     return events
+
+
+@kernel
+def _measure_wall(state: Any) -> None:
+    """Add what was driven in the hallway, and on the side of the wall along which to keep."""
+    dx, dy = state.x - state.corridor_x, state.y - state.corridor_y
+    offset = state.corridor_cos * dy - state.corridor_sin * dx
+    driven = exact_hypot(state.x - state.last_x, state.y - state.last_y)
+    along = state.corridor_cos * dx + state.corridor_sin * dy
+    if abs(offset) < state.wall_offset and along < state.wall_end:
+        state.hallway_way += driven
+        if state.hallway_way > 0.0 and state.wall_side * offset > 0.0:
+            state.wall_way += driven
 
 
 @kernel

@@ -10,8 +10,9 @@ import numpy as np
 
 from semnav_env.judge.astray import missed_beyond
 from semnav_env.judge.mission import Mission
+from semnav_env.language.references import Side
 from semnav_env.mind.grounding.goal import Goal, wait_of
-from semnav_env.rules import SuccessRules
+from semnav_env.rules import Rules, SuccessRules
 from semnav_env.world.simulator.sensed import Motion
 
 
@@ -60,6 +61,7 @@ _NAMES = (
     *("crossed_door", "remaining", "remaining_before", "west", "south", "spacing"),
     *("still_speed", "still_yaw_rate", "longest_still", "missed_beyond"),
     *("corridor_x", "corridor_y", "corridor_cos", "corridor_sin"),
+    *("wall_side", "wall_offset", "wall_end", "hallway_way", "wall_way"),
 )
 
 JUDGE_STATE = np.dtype(
@@ -73,7 +75,12 @@ index of the door of the plan that was crossed, or -1. remaining, remaining_befo
 way to the goal, now and one period ago. west, south, spacing: of the field of distances.
 still_speed, still_yaw_rate: below both the robot stands still; longest_still: the longest time that
 it may stand still. missed_beyond: see `missed_beyond`. corridor_x to corridor_sin: frame of the
-corridor of the goal. period: the result of the control period; the kernel writes it, and the judge
+corridor of the goal. wall_side: 1 or -1 while the robot is to keep along the wall on its left or
+right, else 0; wall_offset, wall_end: half the width of the hallway that counts for that, and how
+far along it that lane leads; hallway_way,
+wall_way: what it has driven there since it had its way to the wall, in all (negative before) and on
+that side of the middle.
+period: the result of the control period; the kernel writes it, and the judge
 completes it after an event.
 """
 
@@ -94,14 +101,36 @@ def first_state(mission: Mission) -> np.ndarray:
     return state
 
 
-def limit_goal(state: np.ndarray, goal: Goal, rules: SuccessRules) -> None:
-    """Write the limits of a goal: where its junction is missed, and the longest time at rest."""
-    state["longest_still"] = rules.still_seconds + wait_of(goal)
-    state["missed_beyond"] = missed_beyond(goal, rules)
+def limit_goal(state: np.ndarray, goal: Goal, rules: Rules) -> None:
+    """Write the limits of a goal: of its junction, of the time at rest, and along a wall."""
+    state["longest_still"] = rules.success.still_seconds + wait_of(goal)
+    state["missed_beyond"] = missed_beyond(goal, rules.success)
+    _watch_wall(state, goal, rules)
     if goal.corridor is not None:
         x, y, heading = goal.corridor.frame
         state["corridor_x"], state["corridor_y"] = x, y
         state["corridor_cos"], state["corridor_sin"] = math.cos(heading), math.sin(heading)
+
+
+def _watch_wall(state: np.ndarray, goal: Goal, rules: Rules) -> None:
+    """Write along which wall the robot is to keep on the way to a goal, and begin to measure."""
+    wall, corridor = goal.wall, goal.corridor
+    state["hallway_way"], state["wall_way"] = -rules.success.wall_entry, 0.0
+    state["wall_side"] = 0.0
+    if wall is None or corridor is None:
+        return
+    from semnav_env.mind.grounding.along_wall import lane_end  # few commands need it
+
+    if corridor.half_width >= rules.grounding.wall_distance + rules.success.wall_room:
+        state["wall_side"] = 1.0 if wall is Side.LEFT else -1.0
+        state["wall_offset"] = corridor.half_width
+        state["wall_end"] = lane_end(corridor, goal.places)
+
+
+def left_the_wall(state: np.ndarray, rules: SuccessRules) -> bool:
+    """Whether the robot has driven too little of its way along the wall that it was told."""
+    way = float(state["hallway_way"][0])
+    return way >= rules.wall_least and float(state["wall_way"][0]) < rules.wall_share * way
 
 
 def put_motion(numbers: memoryview, motion: Motion) -> None:

@@ -18,6 +18,7 @@ from shapely import LineString, Point, Polygon
 from shapely.affinity import affine_transform
 
 from semnav_env.judge.metrics.recording import Recording
+from semnav_env.language.references import Side
 from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal, StopGoal, wait_of
 from semnav_env.rules import Rules, SuccessRules
 from semnav_env.world.maps.floor_plan import FloorPlan
@@ -33,7 +34,7 @@ FAR = 1000.0
 """Longer than any building, metres."""
 
 DONE, WRONG_DOOR, WRONG_TURN = "done", "wrong door", "wrong turn"
-STOPPED_SHORT, OUT_OF_TIME = "stopped short", "out of time"
+STOPPED_SHORT, INCOMPLETE, OUT_OF_TIME = "stopped short", "incomplete", "out of time"
 
 Mask = NDArray[np.bool_]
 Jambs: TypeAlias = tuple[Position, Position]
@@ -44,7 +45,8 @@ class SecondOpinion:
     """The result of the second opinion on an episode.
 
     Attributes:
-        verdict: "done", "wrong door", "wrong turn", "stopped short" or "out of time".
+        verdict: "done", "wrong door", "wrong turn", "stopped short", "incomplete" (not along the
+            wall) or "out of time".
         clauses_done: number of goals that were met, in order, before the end.
         step: row of the recording at which the episode ended; the last row if it never did.
     """
@@ -75,6 +77,8 @@ def recheck(
         if met is None:
             stands = path.standing[-1] > rules.success.final_still_seconds
             return SecondOpinion(STOPPED_SHORT if stands else OUT_OF_TIME, done, recording.steps)
+        if path.strays_from_wall(goal, last, met, rules):
+            return SecondOpinion(INCOMPLETE, done, met)
         last = met
     return SecondOpinion(DONE, len(goals), last)
 
@@ -160,6 +164,25 @@ class _Path:
         facing = aligned | (goal.heading_tolerance >= np.pi)
         return _later((near & facing)[1:])
 
+    def strays_from_wall(self, goal: Goal, since: int, until: int, rules: Rules) -> bool:
+        """Whether too little of the way between two rows leads along the wall of a goal."""
+        hallway = goal.corridor
+        least = rules.grounding.wall_distance + rules.success.wall_room
+        if goal.wall is None or hallway is None or hallway.half_width < least:
+            return False
+        pieces, half = self._pieces[since:until], hallway.half_width
+        end = max(x for x, y in _seen_from(hallway.frame, goal.places) if abs(y) < half)
+        left = _placed(hallway.frame, shapely.box(-FAR, 0.0, end, half))
+        right = _placed(hallway.frame, shapely.box(-FAR, -half, end, 0.0))
+        beside, opposite = (left, right) if goal.wall is Side.LEFT else (right, left)
+        near, far = (
+            shapely.length(shapely.intersection(pieces, side)) for side in (beside, opposite)
+        )
+        so_far = np.cumsum(near + far) - rules.success.wall_entry
+        way, beside_wall = so_far[-1], near[so_far > 0.0].sum()
+        limits = rules.success
+        return bool(way >= limits.wall_least and beside_wall < limits.wall_share * way)
+
     def enters(self, places: Sequence[Polygon]) -> Mask:
         """At which steps the robot's centre is inside one of some places."""
         if not places:
@@ -223,6 +246,12 @@ def _arm(opening: SideOpening, depth: float) -> Polygon:
 def _placed(frame: Pose, polygon: Polygon) -> Polygon:
     c, s = np.cos(frame[2]), np.sin(frame[2])
     return affine_transform(polygon, (c, -s, s, c, frame[0], frame[1]))
+
+
+def _seen_from(frame: Pose, places: Sequence[Position]) -> FloatArray:
+    """Places in a frame, shape (n, 2)."""
+    c, s = np.cos(frame[2]), np.sin(frame[2])
+    return np.asarray((np.array(places) - frame[:2]) @ np.array([[c, -s], [s, c]]))
 
 
 def _lasting(mask: Mask) -> NDArray[np.int64]:

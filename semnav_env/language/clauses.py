@@ -58,11 +58,21 @@ class Approach(StrEnum):
     IN = "in"
 
 
+class Speed(StrEnum):
+    """How fast a robot drives, by what was said."""
+
+    SLOW = "slow"
+    FAST = "fast"
+
+
 LANDMARK = (PlaceReference, DoorReference, RoomReference)
 """What one goes to or past along a hallway, or faces."""
 
 SIDEWAYS = (Turning.LEFT, Turning.RIGHT)
 """The directions of a turn that lead to a side."""
+
+WALLS = (Side.LEFT, Side.RIGHT)
+"""The sides of a hallway that have a wall."""
 
 
 class Clause(Spoken):
@@ -78,10 +88,13 @@ class Follow(Clause):
     Attributes:
         until: how far; None if the next clause says it, or the end of the hallway does.
         past: go on until `until` lies behind, so that it no longer counts.
+        along: keep along the wall of this side; None for the middle. A token has no room for it.
     """
 
     until: PlaceReference | DoorReference | RoomReference | PlaceOffset | Distance | None = None
     past: bool = False
+    along: Side | None = None
+    untokened: ClassVar[tuple[str, ...]] = ("along",)
     forms: ClassVar[tuple[Form, ...]] = (
         form("follow", "follow", "hallway", (TokenVerb.FOLLOW,)),
         form(
@@ -99,9 +112,45 @@ class Follow(Clause):
             until=LANDMARK,
             past=True,
         ),
+        form(
+            *("follow_along", "follow along {along}", "hallway along {along}"),
+            (TokenVerb.FOLLOW,),
+            along=WALLS,
+            sampled=False,
+        ),
+        form(
+            "follow_along_for",
+            "for {until} along {along}",
+            "hallway along {along} for {until}",
+            (TokenVerb.FOLLOW,),
+            until=Distance,
+            along=WALLS,
+            sampled=False,
+        ),
+        form(
+            "follow_along_until",
+            "until {until} along {along}",
+            "hallway along {along} until {until}",
+            (TokenVerb.FOLLOW,),
+            until=(*LANDMARK, PlaceOffset),
+            along=WALLS,
+            sampled=False,
+        ),
+        form(
+            "follow_along_past",
+            "past {until} along {along}",
+            "hallway along {along} past {until}",
+            (TokenVerb.PASS,),
+            until=LANDMARK,
+            past=True,
+            along=WALLS,
+            sampled=False,
+        ),
     )
 
     def __post_init__(self) -> None:
+        if self.along not in (None, *WALLS):
+            raise ValueError(f"a wall is on the left or on the right, not {self.along}")
         at_end = isinstance(self.until, PlaceReference) and self.until.place is Place.END
         is_far = self.until is None or isinstance(self.until, Distance | PlaceOffset)
         if self.past and (at_end or is_far):
@@ -281,6 +330,20 @@ class Stop(Clause):
             raise ValueError(f"a wait is of 1 to {MAX_SECONDS} seconds, not {shown(self.seconds)}")
 
 
+@dataclass(frozen=True, slots=True)
+class Pace(Clause):
+    """Drive slowly, or fast, from here on, until another pace is said: "go slowly".
+
+    It leads nowhere and is done at once. The judge does not judge it.
+    """
+
+    speed: Speed
+    forms: ClassVar[tuple[Form, ...]] = (
+        form("slow", "slow", "slow", (TokenVerb.STOP, 1), speed=Speed.SLOW, sampled=False),
+        form("fast", "fast", "fast", (TokenVerb.STOP, 2), speed=Speed.FAST, sampled=False),
+    )
+
+
 def waits_of(seconds: int) -> tuple[Stop, ...]:
     """Waits that are so long together, each of at most `MAX_SECONDS`."""
     count = -int(-seconds // MAX_SECONDS)
@@ -301,13 +364,13 @@ class Face(Clause):
         form("face", "face {what}", "face {what}", (TokenVerb.TURN,), what=LANDMARK, sampled=False),
         form(
             *("face_wall", "wall {what}", "face wall {what}", (TokenVerb.TURN,)),
-            what=(Side.LEFT, Side.RIGHT),
+            what=WALLS,
             sampled=False,
         ),
     )
 
     def __post_init__(self) -> None:
-        if isinstance(self.what, Side) and self.what not in (Side.LEFT, Side.RIGHT):
+        if isinstance(self.what, Side) and self.what not in WALLS:
             raise ValueError(f"a wall is on the left or on the right, not {self.what}")
 
 
@@ -391,7 +454,7 @@ CLAUSE_KINDS: dict[str, type[Clause]] = {
     kind.__name__: kind
     for kind in (
         *(Follow, Turn, GoToDoor, GoToRoom, Leave, GoBack, BackUp),
-        *(SearchHouse, Stop, Face, IfThere),
+        *(SearchHouse, Stop, Pace, Face, IfThere),
     )
 }
 """The clauses of this package by their names."""

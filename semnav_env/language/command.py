@@ -8,7 +8,7 @@ from enum import Enum
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from semnav_env.language.clauses import CLAUSE_KINDS, Clause, Follow, GoToRoom, IfThere
+from semnav_env.language.clauses import CLAUSE_KINDS, Clause, Follow, GoToRoom, IfThere, Pace
 from semnav_env.language.declarations import field_names
 from semnav_env.language.references import DoorReference, PlaceOffset, PlaceReference, RoomReference
 
@@ -30,7 +30,8 @@ class Command:
         clauses: 1 to `MAX_CLAUSES` of them, in order.
 
     Raises:
-        ValueError: there are too few or too many clauses, or something else among them.
+        ValueError: there are too few or too many clauses, something else among them, or nothing
+            but a pace.
     """
 
     clauses: tuple[Clause, ...]
@@ -47,6 +48,8 @@ class Command:
                 raise ValueError(f"a clause is one of {kinds}, OwnClause, not {clause!r}")
         if not 1 <= len(self.clauses) <= MAX_CLAUSES:
             raise ValueError(f"a command has 1 to {MAX_CLAUSES} clauses, not {len(self.clauses)}")
+        if all(isinstance(clause, Pace) for clause in self.clauses):
+            raise ValueError("a command says what to do, and not only how fast")
         links_of(self.clauses)
 
     def __str__(self) -> str:

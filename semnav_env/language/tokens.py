@@ -21,7 +21,8 @@ TOKEN_TURNINGS = (None, Turning.LEFT, Turning.RIGHT, Turning.AROUND)
 """The first column is a `TokenVerb`, the second one an index into these; a turn without one is to
 face its referent.
 
-For `GO_TO` 1 means in the doorway, and for `GO_TO_ROOM` in front of the room."""
+For `GO_TO` 1 means in the doorway, and for `GO_TO_ROOM` in front of the room. For `STOP` 1 and 2
+are no stop but a pace, slow and fast."""
 
 CONDITION_CASES = ((False, False), (False, True), (True, False), (True, True))
 """The second column of a condition is an index into these pairs: whether it asks for something
@@ -66,6 +67,12 @@ COLUMN_SIZES = (
 
 CLAUSE_FEATURES = len(COLUMN_SIZES)
 """How many columns a token has."""
+
+
+def is_pace(tokens: NDArray[np.integer]) -> NDArray[np.bool_]:
+    """Which rows, shape (..., 5), say only how fast to drive."""
+    paces: NDArray[np.bool_] = (tokens[..., 0] == TokenVerb.STOP) & (tokens[..., 1] > 0)
+    return paces
 
 
 def token_space() -> Box:

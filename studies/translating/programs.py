@@ -16,6 +16,8 @@ from semnav_env.language.clauses import (
     GoToRoom,
     IfThere,
     Leave,
+    Pace,
+    Speed,
     Stop,
     Turn,
     Turning,
@@ -63,6 +65,12 @@ def _clauses(step: Step) -> list[Clause]:
         case ("hallway", "until" | "past" as relation, place):
             before, what = _place(place)
             return [*before, Follow(what, relation == "past")]
+        case ("along", side, *rest):
+            *before, follow = _clauses(("hallway", *rest))
+            assert isinstance(follow, Follow)
+            return [*before, replace(follow, along=Side(side))]
+        case ("slow" | "fast" as speed,):
+            return [Pace(Speed(speed))]
         case ("turn by", way, degrees):
             return [Turn(Turning(way), degrees=degrees)]
         case ("turn", way, None):

@@ -90,7 +90,7 @@ def test_any_integers_are_a_command_or_refused(tokens: Any) -> None:
         ([2, 0, 0, 0, 0], "no clause"),
         ([2, 1, 1, 1, 0], "no clause"),
         ([3, 0, 2, 1, 0], "no clause"),
-        ([5, 1, 0, 0, 0], "no clause"),
+        ([5, 3, 0, 0, 0], "no clause"),
         ([0, 0, 0, 0, 1], "no clause"),
         ([1, 0, 4, 2, 0], "one end ahead"),
         ([1, 0, 2, 31, 0], "1 to 20"),

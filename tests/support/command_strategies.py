@@ -64,7 +64,13 @@ off_ends = st.builds(PlaceOffset, distances, st.just(Relation.BEFORE), places)
 offsets = st.builds(Follow, st.one_of(off_doors, off_rooms, off_ends))
 """Without a token of their own, see `PlaceOffset`."""
 
+follows = st.one_of(
+    st.builds(Follow, room_references, st.booleans()),
+    st.builds(Follow, st.one_of(st.none(), places, doors, distances)),
+    st.builds(Follow, st.one_of(junctions, doors), past=st.just(True)),
+)
 clauses = st.one_of(
+    follows,
     st.builds(Stop, st.integers(0, 100)),
     st.just(Leave()),
     st.just(SearchHouse()),
@@ -73,12 +79,9 @@ clauses = st.one_of(
     st.builds(
         Face, st.one_of(approached_doors, places, room_references, st.sampled_from(turned_sides))
     ),
-    st.builds(Follow, room_references, st.booleans()),
     turns_by,
     st.builds(Turn, st.sampled_from(Turning), st.one_of(st.none(), places)),
     st.builds(GoToDoor, approached_doors, st.sampled_from(Approach)),
-    st.builds(Follow, st.one_of(st.none(), places, doors, distances)),
-    st.builds(Follow, st.one_of(junctions, doors), past=st.just(True)),
 )
 conditions = st.builds(IfThere, st.one_of(places, doors), st.booleans())
 stretches = st.one_of(

@@ -14,6 +14,7 @@ from semnav_agents.base import Agent, Observation
 from semnav_agents.hearing.clause_state import ClauseState
 from semnav_agents.hearing.elements import Description, describe
 from semnav_agents.hearing.network import GroundingNetwork, NetworkOutput, NetworkShape
+from semnav_agents.hearing.tokens import without_paces
 from semnav_agents.networks.bundled import bundled_names, network_folder, network_kind
 from semnav_agents.scripted import ScriptedAgent
 from semnav_env.language.declarations import TokenVerb
@@ -93,6 +94,7 @@ class HearingAgent:
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action."""
+        observation = without_paces(observation)
         pose, velocity = read_odometry(observation)
         if self._state is None:
             self._state = ClauseState(observation["command"], pose)

@@ -64,7 +64,7 @@ class GroundedGoal:
 class ShownAgent(ScriptedAgent):
     """The scripted agent on observations for an agent that hears."""
 
-    observation = EntryObservation("command", [GroundedGoal()])  # type: ignore[assignment]
+    observation = EntryObservation("command", [GroundedGoal()])
 
 
 @dataclass

@@ -7,10 +7,18 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_agents.base import Observation
 from semnav_env.language.clauses import DEGREE_STEP
 from semnav_env.language.declarations import DEGREES, SECONDS
 from semnav_env.language.references import AMOUNT_STEP, STEP_LENGTH, Unit
-from semnav_env.language.tokens import COLUMN_SIZES, LAST_TOKEN, TOKEN_REFERENTS
+from semnav_env.language.tokens import (
+    CLAUSE_FEATURES,
+    COLUMN_SIZES,
+    LAST_TOKEN,
+    TOKEN_REFERENTS,
+    is_pace,
+)
+from semnav_env.mind.observations import MEMORY_TABLES
 from semnav_env.rules import GroundingRules
 
 MOST_COUNTED = 12
@@ -32,6 +40,26 @@ CLAUSE_SIZE = sum(_ONE_HOT) + MOST_COUNTED + MOST_FROM_END + _AMOUNTS
 
 COMMAND_SIZE = 2 * CLAUSE_SIZE
 """Number of values that describe the active clause and the one before it."""
+
+
+def without_paces(observation: Observation) -> Observation:
+    """The observation of a command without its paces, which the network does not know.
+
+    The clauses behind a pace move up, also in what was told of their ways.
+    """
+    tokens = observation["command"].reshape(-1, CLAUSE_FEATURES)
+    paces = is_pace(tokens)
+    if not paces.any():
+        return observation
+    kept = np.concatenate((tokens[~paces], np.zeros_like(tokens[paces])))
+    plain = {**observation, "command": kept.ravel()}
+    before = np.cumsum(paces)
+    for table in MEMORY_TABLES:
+        if table.columns[0] == "clause":
+            rows = observation[table.name].reshape(table.rows, -1).copy()
+            rows[:, 0] -= before[rows[:, 0].astype(int)]
+            plain[table.name] = rows.ravel()
+    return plain
 
 
 def describe_clauses(tokens: NDArray[np.int64], clause: int) -> NDArray[np.float32]:

@@ -15,6 +15,7 @@ from semnav_agents.planning.nudge import best_nudge, path_clearance, path_cleara
 from semnav_agents.planning.path import PlannedPath, joined
 from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
 from semnav_agents.planning.track import FollowerSettings, PathTrack
+from semnav_env.language.clauses import Speed
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import (
     ORIGIN,
@@ -82,6 +83,7 @@ class Driver:
     patience: int = 45
 
     def __post_init__(self) -> None:
+        self._pace: Speed | None = None
         self.reset()
 
     def reset(self) -> None:
@@ -101,6 +103,16 @@ class Driver:
     def plan_at_once(self) -> None:
         """Plan to the next target without standing still first."""
         self._wait = 0
+
+    def take_pace(self, pace: Speed | None) -> None:
+        """Drive at a pace from here on, also along the path that is being driven."""
+        if pace is not self._pace:
+            self._pace = pace
+            if self._track is not None:
+                self._track = self._track_of(self._track.path)
+
+    def _track_of(self, path: PlannedPath) -> PathTrack:
+        return PathTrack(path, self.robot, self.follower.at(self._pace, self.robot))
 
     def drive(
         self,
@@ -229,7 +241,7 @@ class Driver:
             self.path = joined(kept, self.path)
         self.plans += 1
         self._target, self._progress, self._shift = target, PathProgress(), ORIGIN
-        self._track = PathTrack(self.path, self.robot, self.follower)
+        self._track = self._track_of(self.path)
         if not self.path.complete:
             self._wait = self.retry_after
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Annotated, NamedTuple, TypeAlias
 
@@ -13,9 +13,13 @@ from numpy.typing import NDArray
 
 from semnav_agents.planning.motion import REVERSE, TURN
 from semnav_agents.planning.path import PlannedPath
+from semnav_env.language.clauses import Speed
 from semnav_env.robots import RobotSpec
 from semnav_features.checked_fields import Bounds, check_fields
 from semnav_features.frames import FloatArray, distances_along
+
+SLOW_SHARE = 0.5
+"""Share of the usual largest speeds at which a robot drives slowly."""
 
 Gain: TypeAlias = Annotated[float, Bounds(0.0, 1000.0)]
 
@@ -60,6 +64,20 @@ class FollowerSettings:
 
     def __post_init__(self) -> None:
         check_fields(self)
+
+    def at(self, pace: Speed | None, robot: RobotSpec) -> FollowerSettings:
+        """The settings at a pace; None is the usual one.
+
+        Slow is `SLOW_SHARE` of the largest speeds and yaw rate; fast is the body's largest speed
+        forwards, where there is as much room as the usual one needs.
+        """
+        if pace is Speed.SLOW:
+            names = ("cruise", "reverse", "sideways", "turn_rate", "crowded_turn")
+            return replace(self, **{each: SLOW_SHARE * getattr(self, each) for each in names})
+        if pace is Speed.FAST:
+            faster = max(1.0, robot.max_speed / self.cruise)
+            return replace(self, cruise=faster * self.cruise, crowded=faster * self.crowded)
+        return self
 
 
 class PathLeg(NamedTuple):

@@ -18,6 +18,7 @@ from semnav_env.language import (
     GoToDoor,
     GoToRoom,
     Leave,
+    Pace,
     Side,
     Turn,
     Turning,
@@ -57,13 +58,17 @@ def with_implicit_steps(command: Command, feasible: Feasible, *, in_room: bool) 
 
 def _places_to_leave(command: Command, in_room: bool) -> Iterator[int]:
     """The clauses before which the robot is in a room."""
+    before: Clause | None = None
     for index, clause in enumerate(command.clauses):
-        before = command.clauses[index - 1] if index else None
+        if isinstance(clause, Pace):
+            continue
         entered = isinstance(before, GoToRoom) or (
             isinstance(before, GoToDoor) and before.approach is Approach.THROUGH
         )
-        if (entered or (in_room and index == 0)) and isinstance(clause, Follow | Turn | GoToDoor):
+        begins = entered or (in_room and before is None)
+        if begins and isinstance(clause, Follow | Turn | GoToDoor):
             yield index
+        before = clause
 
 
 def _leaving(command: Command, index: int) -> Iterator[Command]:

@@ -3,7 +3,7 @@
 The equivalences, each true by the rules of docs/commands.md:
 
 1. "hallway" before a step that says how far, where to turn or which door, adds nothing.
-2. "hallway" at the end, and "cross" in a room, lead to the end.
+2. "hallway" at the end, and "cross" in a room, lead to the end; also along a wall.
 3. A turn after "hallway" or "past" is at the next turning; after "until" a place, it is there.
 4. "through D after P" is "past P; through D"; a door "between P and Q" is behind P and before Q;
     "if D after P" is decided behind P, too.
@@ -71,6 +71,9 @@ def normal(steps: Steps) -> Steps:
             found[-1] = ("to", tuple(door))
     if found and found[-1] == ("hallway",):
         found[-1] = ("hallway", "until", ("end", 1))
+    match found[-1:]:
+        case [("along", _) as along]:
+            found[-1] = (*along, "until", ("end", 1))
     return tuple(found)
 
 

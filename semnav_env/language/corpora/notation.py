@@ -31,9 +31,6 @@ Steps: TypeAlias = tuple[Step, ...]
 NAMED_ORDINALS = ("nearest", "any", "other", "entry")
 DOOR_SIDES = ("left", "right", "ahead", "behind", "opposite")
 
-PACES = ("slow", "fast")
-"""How fast what follows is done; no clause says it yet, nor along which wall to keep."""
-
 _CONDITION = re.compile(r"if ([^:]+): ?(.*?)(?: else: ?(.*))? end")
 _BEFORE_PLACE = re.compile(r"(?:until|past|at|to|face|after|before)$")
 
@@ -108,7 +105,7 @@ def _step(text: str) -> Step:
             read_meaning(otherwise) if otherwise else (),
         )
     match text.split(" ", 1):
-        case [verb] if verb in {*_verbs(None), "cross", *PACES}:
+        case [verb] if verb in {*_verbs(None), "cross"}:
             return (verb,)
         case ["hallway", rest] if along := re.fullmatch(r"along (left|right)(?: (.+))?", rest):
             return ("along", along[1], *_step(f"hallway {along[2] or ''}".strip())[1:])

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from semnav_env.language.clauses import Follow, GoBack, Leave, Stop
+from semnav_env.language.clauses import Follow, GoBack, Leave, Pace, Stop
 from semnav_env.language.command import Command, reference_of
 from semnav_env.language.references import PlaceReference
 from semnav_env.language.vocabulary.lexicon import Lexicon, parts_of
@@ -89,7 +89,9 @@ class TextSupport:
 
     def speaks_of(self, command: Command) -> bool:
         """Whether a command has something to do, of all of which the text speaks."""
-        idle = all(isinstance(clause, Stop) or clause == Follow() for clause in command.clauses)
+        idle = all(
+            isinstance(clause, Stop | Pace) or clause == Follow() for clause in command.clauses
+        )
         return not idle and all(self.classes & set(NEEDED[name]) for name in _named(command))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple, Protocol
 
+from semnav_env.language.clauses import Speed
 from semnav_env.mind.grounding.goal import Goal
 from semnav_features.frames import Pose, Twist
 from semnav_features.scene import Scene
@@ -31,6 +32,7 @@ class Belief(NamedTuple):
             still long; the entry "goal" of the observation.
         impossible: reason why the clause cannot be carried out; None if it can.
         memory: the source of `scene`.
+        pace: how fast to drive now, by what was said; None for the usual pace.
     """
 
     pose: Pose
@@ -40,6 +42,7 @@ class Belief(NamedTuple):
     target: Goal
     impossible: str | None
     memory: SceneSource
+    pace: Speed | None = None
 
     @property
     def scene(self) -> Scene:

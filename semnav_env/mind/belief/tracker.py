@@ -279,7 +279,7 @@ class BeliefTracker:
             self._last_source = ref(remembered)
         forward, left, yaw_rate, x, y, heading = BELIEVED.unpack_from(self._buffer, BELIEVED_OFFSET)
         told = follower.active, follower.goal, self._target, follower.impossible
-        return Belief((x, y, heading), (forward, left, yaw_rate), *told, source)
+        return Belief((x, y, heading), (forward, left, yaw_rate), *told, source, follower.pace)
 
     def scene(self) -> Scene:
         """What is known now, in the odometry frame."""

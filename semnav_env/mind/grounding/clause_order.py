@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
+from dataclasses import replace
 
-from semnav_env.language.clauses import Clause, Follow, GoToDoor, IfThere, Turn, Turning
-from semnav_env.language.references import SOME, Distance, PlaceReference
+from semnav_env.language.clauses import (
+    Clause,
+    Follow,
+    GoToDoor,
+    IfThere,
+    Pace,
+    Speed,
+    Turn,
+    Turning,
+)
+from semnav_env.language.references import SOME, Distance, PlaceReference, Side
 
 
 def after(clauses: Sequence[Clause], index: int, met: bool | None = None) -> int:
@@ -45,16 +55,18 @@ def is_only_a_direction(clauses: Sequence[Clause], index: int) -> bool:
 
     To turn around and to go so many metres does not end "go a bit".
     """
-    if clauses[index] not in (Follow(), Follow(SOME)) or index + 1 == len(clauses):
+    clauses, index = _without_paces(clauses, index)
+    clause = _anywhere_across(clauses[index])
+    if clause not in (Follow(), Follow(SOME)) or index + 1 == len(clauses):
         return False
     if _case(clauses, index) != _case(clauses, index + 1):
         return False
     match clauses[index + 1]:
         case Turn(turning, _, degrees):
-            around = turning is Turning.AROUND and clauses[index] == Follow(SOME)
+            around = turning is Turning.AROUND and clause == Follow(SOME)
             return degrees is None and not around
         case Follow(Distance()):
-            return clauses[index] == Follow()
+            return clause == Follow()
         case following:
             return isinstance(following, Follow | GoToDoor)
 
@@ -64,6 +76,7 @@ def comes_after_corridor(clauses: Sequence[Clause], index: int) -> bool:
 
     This is so after "go down the hallway" and after "go past the second door".
     """
+    clauses, index = _without_paces(clauses, index)
     if index == 0 or _case(clauses, index - 1) != _case(clauses, index):
         return False  # what hangs on a condition may not have been done
     before, clause = clauses[index - 1 : index + 1]
@@ -86,3 +99,44 @@ def _condition_over(clauses: Sequence[Clause], index: int) -> int | None:
         if isinstance(before, IfThere):
             return at if index <= at + before.then + before.otherwise else None
     return None
+
+
+def wall_beside(clauses: Sequence[Clause], index: int) -> Side | None:
+    """The side along whose wall a clause is carried out, said in it or in the direction before."""
+    clauses, index = _without_paces(clauses, index)
+    if index and is_only_a_direction(clauses, index - 1):
+        said = wall_beside(clauses, index - 1)
+    else:
+        said = None
+    clause = clauses[index]
+    return (clause.along if isinstance(clause, Follow) else None) or said
+
+
+def pace_at(clauses: Sequence[Clause], index: int, skipped: Container[int]) -> Speed | None:
+    """The pace at a clause: the last one that was said before it and not ruled out."""
+    said = [
+        clause.speed
+        for k, clause in enumerate(clauses[:index])
+        if isinstance(clause, Pace) and k not in skipped
+    ]
+    return said[-1] if said else None
+
+
+def _without_paces(clauses: Sequence[Clause], index: int) -> tuple[Sequence[Clause], int]:
+    """The clauses but those that say a pace in any case, and the index among them of a clause.
+
+    They stand between clauses that complete each other: "go down the hallway, slowly, turn left".
+    """
+    if not any(isinstance(clause, Pace) for clause in clauses):
+        return clauses, index
+    kept = [
+        k
+        for k, clause in enumerate(clauses)
+        if k == index or not isinstance(clause, Pace) or _case(clauses, k) is not None
+    ]
+    return [clauses[k] for k in kept], kept.index(index)
+
+
+def _anywhere_across(clause: Clause) -> Clause:
+    """The clause without the wall along which to keep."""
+    return replace(clause, along=None) if isinstance(clause, Follow) and clause.along else clause

@@ -10,13 +10,15 @@ from typing import Self
 import numpy as np
 
 from semnav_env.language import Command
-from semnav_env.language.clauses import GoBack, IfThere
+from semnav_env.language.clauses import GoBack, IfThere, Pace, Speed
 from semnav_env.language.command import reference_of
 from semnav_env.mind.grounding.clause_order import (
     after,
     comes_after_corridor,
     in_context,
     is_only_a_direction,
+    pace_at,
+    wall_beside,
 )
 from semnav_env.mind.grounding.clause_progress import (
     CLAUSE_DONE,
@@ -103,6 +105,11 @@ class Follower:
         """Whether every clause has been carried out."""
         return self.active >= len(self.command.clauses)
 
+    @property
+    def pace(self) -> Speed | None:
+        """How fast to drive now, by what was said; None if nothing was."""
+        return pace_at(self.command.clauses, self.active, self.skipped)
+
     def advance(self, scene: Callable[[], Scene], pose: Pose, speed: float, seconds: float) -> bool:
         """Note the robot's pose, and begin the next clause if this one is done.
 
@@ -188,6 +195,7 @@ class Follower:
             self._beside,
             self._entry,
             self._lookouts,
+            wall=wall_beside(self.command.clauses, self.active),
             rules=self.rules,
         )
 
@@ -213,8 +221,13 @@ class Follower:
 
     def _begin_clause(self, scene: Scene, begin: Pose, pose: Pose) -> None:
         clauses = self.command.clauses
-        while not self.done and is_only_a_direction(clauses, self.active):
-            self.active += 1
+        while not self.done:
+            if isinstance(clauses[self.active], Pace):
+                self._go_on(after(clauses, self.active))
+            elif is_only_a_direction(clauses, self.active):
+                self.active += 1
+            else:
+                break
         self.begin, self._lookouts, self.goal, self._found = begin, (), StopGoal(pose), None
         back = not self.done and is_behind(reference_of(clauses[self.active]))
         ahead = turned(begin) if back else begin

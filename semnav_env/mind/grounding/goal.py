@@ -7,6 +7,7 @@ from dataclasses import KW_ONLY, dataclass, field
 from enum import IntEnum
 from typing import ClassVar, TypeAlias
 
+from semnav_env.language.references import Side
 from semnav_env.mind.grounding.goal_check import is_crossed, is_reached
 from semnav_features.corridor import Corridor, Junction
 from semnav_features.frames import Point, Pose
@@ -32,6 +33,7 @@ class BaseGoal:
         onward: pose at which the next clause begins, such as the middle of the crossed doorway or
             the mouth of the arm; None for `pose`.
         places: places of the known way to the goal, from its beginning on, (x, y) in metres.
+        wall: the side of the corridor along whose wall that way leads; None for any other way.
     """
 
     kind: ClassVar[GoalKind]
@@ -40,6 +42,7 @@ class BaseGoal:
     corridor: Corridor | None = field(default=None, compare=False, repr=False)
     onward: Pose | None = None
     places: tuple[Point, ...] = field(default=(), compare=False, repr=False)
+    wall: Side | None = field(default=None, compare=False, repr=False)
 
     @property
     def next_begin(self) -> Pose:

@@ -13,6 +13,7 @@ from semnav_env.language.clauses import (
     GoToRoom,
     IfThere,
     Leave,
+    Pace,
     SearchHouse,
     Stop,
     Turn,
@@ -64,7 +65,8 @@ def ground(
         ValueError: a door of the scene has no width, and another door may lie behind it.
     """
     here = begin if pose is None else pose
-    situation = Situation(scene, begin, here, complete, after_corridor, way, rules=rules)
+    wall = clause.along if isinstance(clause, Follow) else None
+    situation = Situation(scene, begin, here, complete, after_corridor, way, wall=wall, rules=rules)
     return goal_of(clause, situation)
 
 
@@ -75,6 +77,16 @@ def goal_of(clause: Clause, situation: Situation) -> Goal:
         GroundingError: the referent cannot be there, or the clause is a condition.
     """
     situation = situation.towards(reference_of(clause))
+    goal = _goal_of(clause, situation)
+    if situation.wall is None:
+        return goal
+    from semnav_env.mind.grounding.along_wall import kept_along  # here, as it is rare
+
+    return kept_along(goal, situation.wall, situation)
+
+
+def _goal_of(clause: Clause, situation: Situation) -> Goal:
+    """The goal of a clause, wherever in the hallway the robot is to keep."""
     match reference_of(clause):
         case DoorReference(to=RoomReference()) as reference if not isinstance(clause, Face):
             return _goal_by_room(clause, reference, situation)
@@ -126,6 +138,8 @@ def _goal_in_hallway(clause: Clause, situation: Situation) -> Goal:
             return backing_up_goal(clause, situation)
         case IfThere():
             raise GroundingError(f"{clause}: a condition leads nowhere by itself")
+        case Pace():
+            raise GroundingError(f"{clause}: a pace leads nowhere by itself")
         case SearchHouse():
             rest = situation.rules.success.search_rest_seconds
             return StopGoal(situation.begin, str(clause), rest, roams=True)

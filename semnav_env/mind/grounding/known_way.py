@@ -19,10 +19,12 @@ def next_on_way(goal: Goal, pose: Pose, rules: GroundingRules) -> Goal:
     ahead = here + rules.places_ahead
     there = _along(goal.places, ahead)
     if ahead >= len(goal.places) - 1:
-        if isinstance(goal, PassGoal):
+        if isinstance(goal, PassGoal) or goal.wall is not None:
             return goal
         there = goal.pose
     stretch = _along(goal.places, here)
+    if goal.wall is not None:  # the lane was measured from the wall, so that it has not drifted
+        return SeekGoal(there, f"the wall on the {goal.wall}")
     if abs(wrap_angle(stretch[2] - there[2])) < rules.straight_way_angle:
         offset = to_local(stretch, pose[:2])[1]
         there = _beside(there, offset if abs(offset) < rules.way_drift else 0.0)

@@ -33,6 +33,7 @@ class Situation:
         entry: the goal of the clause that led through a door last; None if none did.
         lookouts: poses at which the robot has looked for the referent, in the order of time.
         back: whether `begin` is turned around, see `towards`.
+        wall: the side along whose wall to keep; None for none.
         rules: distances and tolerances.
     """
 
@@ -46,6 +47,7 @@ class Situation:
     entry: PassGoal | None = None
     lookouts: tuple[Pose, ...] = ()
     back: bool = False
+    wall: Side | None = None
     rules: Rules = field(default=Rules(), repr=False)
 
     @cached_property

@@ -25,6 +25,7 @@ from semnav_features.lazy_names import lazy_names
 if TYPE_CHECKING:
     from semnav_env.mind.observations.cloud_entry import CloudEntry
     from semnav_env.mind.observations.instruction import InstructionEntry
+    from semnav_env.mind.observations.pace_entry import PaceEntry, read_pace
     from semnav_env.mind.observations.readers import SeenGoal, read_odometry, table
 
 __all__ = [
@@ -42,10 +43,12 @@ __all__ = [
     "InstructionEntry",
     "Moment",
     "ObservationType",
+    "PaceEntry",
     "SeenGoal",
     "as_observation",
     "check_observation",
     "read_odometry",
+    "read_pace",
     "table",
 ]
 
@@ -54,6 +57,7 @@ __getattr__ = lazy_names(
     {
         ".cloud_entry": ("CloudEntry",),
         ".instruction": ("InstructionEntry",),
+        ".pace_entry": ("PaceEntry", "read_pace"),
         ".readers": ("SeenGoal", "read_odometry", "table"),
     },
 )

@@ -1,0 +1,1 @@
+"""How robots drive at a pace, and along a wall."""
