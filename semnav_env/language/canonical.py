@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from enum import StrEnum
 from functools import cache
 from itertools import product
 from string import Formatter
 from typing import Any, TypeAlias
 
-from semnav_env.language.clauses import CLAUSE_KINDS, Clause
+from semnav_env.language.clauses import CLAUSE_KINDS, Clause, IfThere
 from semnav_env.language.command import MAX_CLAUSES, Command, Link
 from semnav_env.language.declarations import Multiples, Option, Spoken, field_types, open_fields
 from semnav_env.language.errors import CommandError
@@ -21,6 +22,9 @@ from semnav_env.language.references import MAX_FROM_END, MAX_ORDINAL, OTHER
 
 Found: TypeAlias = Iterator[tuple[Any, int]]
 """Values that the words at a place may be, each with the place behind them."""
+
+OTHERWISE, ANYWAY = BRANCHES = (Link.OTHERWISE.value, Link.IN_ANY_CASE.value)
+"""Adverbs with which the other case of a condition begins, and what depends on it no more."""
 
 _NAME = re.compile(r"[a-z0-9][a-z0-9 ._-]*")
 _NUMBER = re.compile(r"[0-9]+(?:[.,][0-9]+)?")
@@ -51,9 +55,9 @@ def read_canonical(text: str, language: Language) -> Command | None:
         CommandError: it has characters that no command has, or is too long to be read.
     """
     said = normalise(text, language).text.rstrip(language.punctuation + " ")
-    for clauses in _clauses(said, 0, language, MAX_CLAUSES):
+    for parts in _parts(said, 0, "", language, MAX_CLAUSES):
         try:
-            command = Command(clauses)
+            command = Command(_with_branches(parts))
         except ValueError:
             continue
         if _plain(command.say(language), language) == said:
@@ -61,22 +65,42 @@ def read_canonical(text: str, language: Language) -> Command | None:
     return None
 
 
-def _clauses(said: str, at: int, language: Language, most: int) -> Iterator[tuple[Clause, ...]]:
-    """The clauses that words may be, at most so many; how they are joined is not compared."""
+def _parts(
+    said: str, at: int, adverb: str, language: Language, most: int
+) -> Iterator[tuple[tuple[Clause, str], ...]]:
+    """The clauses that words may be, at most so many, each with the adverb before it."""
     for kind in CLAUSE_KINDS.values() if most else ():
         for clause, stop in _spoken(kind, said, at, language, ""):
+            if isinstance(clause, IfThere) and (clause.then, clause.otherwise) != (1, 0):
+                continue  # what depends on it is counted by what comes behind it
             if stop == len(said):
-                yield (clause,)
+                yield ((clause, adverb),)
             elif joint := _joint(language).match(said, stop):
-                behind = _clauses(said, joint.end(), language, most - 1)
-                yield from ((clause, *each) for each in behind)
+                link = next(
+                    (k for k in BRANCHES if joint[1] == _plain(language.say(k), language)), ""
+                )
+                behind = _parts(said, joint.end(), link, language, most - 1)
+                yield from (((clause, adverb), *each) for each in behind)
+
+
+def _with_branches(parts: Sequence[tuple[Clause, str]]) -> tuple[Clause, ...]:
+    """The clauses, with the number of those that depend on each condition."""
+    clauses = []
+    for at, (clause, _) in enumerate(parts):
+        if isinstance(clause, IfThere):
+            adverbs = [adverb for _, adverb in parts[at + 1 :]]
+            end = adverbs.index(ANYWAY) if ANYWAY in adverbs else len(adverbs)
+            then = adverbs.index(OTHERWISE) if OTHERWISE in adverbs[:end] else end
+            clause = replace(clause, then=then, otherwise=end - then)
+        clauses.append(clause)
+    return tuple(clauses)
 
 
 @cache
 def _joint(language: Language) -> re.Pattern[str]:
-    """What stands between two clauses."""
-    adverbs = ("from_there", *(link.value for link in Link if link is not Link.NEXT))
-    return re.compile(_one_of(("comma", "and"), language) + _one_of(adverbs, language))
+    """What stands between two clauses: a sign or a word, and perhaps an adverb."""
+    adverbs = ("from_there", *BRANCHES, Link.THEN.value)
+    return re.compile(f"{_one_of(('comma', 'and'), language)}({_one_of(adverbs, language)})")
 
 
 def _one_of(phrases: Sequence[str], language: Language) -> str:

@@ -25,8 +25,11 @@ Fields: TypeAlias = Mapping[str, tuple[Option, ...]]
 
 START, END, REFUSE = "<start>", "<end>", "<refuse>"
 
-_LITERALS = ("0", "1", "2", "-1", "-2", "0.5", "45", "90", "180")
+_LITERALS = ("0", "1", "2", "3", "-1", "-2", "0.5", "45", "90", "180")
 """Numbers that are meant without being said: "the next", "the one after", "a half turn"."""
+
+_FROM_END = "from_end"
+"""Before a number that counts from the end."""
 
 _OTHER_SIDES = (Side.AHEAD, Side.BEHIND, Side.OPPOSITE)
 
@@ -37,7 +40,7 @@ SYMBOLS = (
     *("leave", "back", "search", "stop", "reverse", "entry", "along"),
     *("before", "after", "slow", "fast"),
     *("door", *(place.value for place in Place), *ROOM_SYMBOLS, *Unit),
-    *(*SIDE_SYMBOLS, *_OTHER_SIDES, *VALUE_SYMBOLS, *_LITERALS),
+    *(*SIDE_SYMBOLS, *_OTHER_SIDES, *VALUE_SYMBOLS, *_LITERALS, _FROM_END),
 )
 """The symbols of the network; a command is a list of symbols between `START` and `END`.
 
@@ -112,12 +115,16 @@ class _Speaker:
             case str():
                 yield self._room(value)
             case int() | float():
-                yield self._number(value)
+                yield from self._number(value)
 
-    def _number(self, number: float) -> str:
-        if number in self._text.values[:MAX_VALUES]:
-            return VALUE_SYMBOLS[self._text.values.index(number)]
-        return _sayable(f"{number:g}", _LITERALS)
+    def _number(self, number: float) -> Iterator[str]:
+        values = self._text.values[:MAX_VALUES]
+        if number in values:
+            yield VALUE_SYMBOLS[values.index(number)]
+        elif -number in values and number < 0:
+            yield from (_FROM_END, VALUE_SYMBOLS[values.index(-number)])
+        else:
+            yield _sayable(f"{number:g}", _LITERALS)
 
     def _side(self, side: Side) -> str:
         if side in self._text.sides:
@@ -163,7 +170,7 @@ class _SymbolReader:
     """
 
     def __init__(self, symbols: Sequence[str], text: MaskedText) -> None:
-        self._symbols, self._text = symbols, text
+        self._symbols, self._text = tuple(symbols), text
 
     def first_clauses(self, at: int) -> tuple[tuple[Clause, ...], int]:
         """The clause that begins at a place, or the waits that a long one consists of."""
@@ -209,6 +216,9 @@ class _SymbolReader:
         for option in options:
             if isinstance(option, type) and issubclass(option, Spoken):
                 yield from self._values(option, at)
+            elif option is int and self._symbols[at : at + 1] == (_FROM_END,):
+                counted = self._symbols[at + 1 : at + 2]
+                yield from ((-n, at + 2) for s in counted for n in self._numbers(s, int))
             else:
                 yield from ((value, at + 1) for value in self._plain(option, self._symbols[at]))
 
