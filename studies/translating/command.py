@@ -13,13 +13,13 @@ from semnav_env.language.translating.network import TRAINED_FOLDER
 from semnav_env.networks.card import CARD_FILE, Card
 from semnav_env.networks.weights import save_weights
 from studies.corpora import learned_corpora
-from studies.translating.texts import authored, disturbed, generated
+from studies.translating.texts import authored, disturbed, generated, of_episodes
 from studies.translating.training import TranslatorTraining, trained
 
 
 @dataclass(frozen=True)
 class Recipe:
-    """What a translator learns from.
+    """What a translator learns from, beside the commands of the split for training.
 
     Attributes:
         generated: paraphrases of the generator.
@@ -28,8 +28,8 @@ class Recipe:
         training: of the network.
     """
 
-    generated: int = 8000
-    disturbed: int = 64000
+    generated: int = 16000
+    disturbed: int = 96000
     seed: int = 0
     training: TranslatorTraining = field(default_factory=TranslatorTraining)
 
@@ -38,7 +38,7 @@ class Recipe:
         known = [text for path in corpora for text in authored(path)]
         written = generated(known, self.generated, np.random.default_rng(self.seed))
         varied = disturbed(known, self.disturbed, np.random.default_rng(self.seed))
-        texts = [*islice(written, self.generated), *varied]
+        texts = [*islice(written, self.generated), *of_episodes("train"), *varied]
         network = trained(texts, self.training, self.seed)
         preset = asdict(self) | {"corpora": [path.name for path in corpora]}
         halves = {name: array.astype(np.float16) for name, array in network.tensors.items()}

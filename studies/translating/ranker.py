@@ -88,12 +88,12 @@ def _judged(
     )
 
 
-def paraphrased(count: int, folder: Path) -> Iterator[RankedText]:
+def paraphrased(count: int, folder: Path, seed: int) -> Iterator[RankedText]:
     """Paraphrases of the generator, half of them German, with one to six clauses each.
 
     People say such long routes rarely.
     """
-    rng = np.random.default_rng(0)
+    rng = np.random.default_rng(seed)
     for number in range(count):
         command, code = sample_command(rng, 6, 5), ("en", "de")[number % 2]
         text = paraphrases(command, rng, 1, code)[0]

@@ -21,8 +21,8 @@ from studies.translating.training import TranslatorTraining
 FIRST_STRANGER = 11
 """The first author with whose texts the lexicon was not written."""
 
-LIGHTER = Recipe(disturbed=48000, training=TranslatorTraining(steps=9000))
-"""What the two translators learn from: less than the bundled one, as they know fewer authors."""
+LIGHTER = Recipe(disturbed=64000, training=TranslatorTraining(steps=10000))
+"""What its translator learns from: less than the bundled one, as it knows fewer authors."""
 
 PARAPHRASES = 400
 """Of the generator, from which the ranker learns, too."""
@@ -35,22 +35,25 @@ ACTING = (0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95)
 class Arguments:
     """Learn the weights of the ranker from texts whose authors the translator does not know.
 
-    The authors are parted in halves, but for those with whom the lexicon was written. A translator
-    learns without each half, and translates its texts. The table is of weights that were learned
-    from the other half; the weights that are written were learned from both.
+    A translator learns without every second author, and translates their texts. The table is of
+    weights that were learned from half of these authors and asked about the others; the weights
+    that are written were learned from all of them.
 
     Attributes:
-        folder: of the two translators; those that are there are not trained again.
+        folder: of the translator; one that is there is not trained again.
         out: folder to which the weights are written; by default that of the package.
-        recipe: what the translators learn from.
+        recipe: what the translator learns from.
     """
 
-    folder: Path = Path("out/halves")
+    folder: Path = Path("out/half")
     out: Path = TRAINED_FOLDER
     recipe: Recipe = field(default_factory=lambda: LIGHTER)
 
     def run(self) -> int:
         """Learn and write the weights."""
+        if not (self.folder / CARD_FILE).exists():
+            known = [each for each in learned_corpora() if each not in strangers()]
+            self.recipe.train(known, self.folder)
         halves = [self._texts(number) for number in range(2)]
         crossed = [
             (text, shares_of(text, weights))
@@ -66,23 +69,16 @@ class Arguments:
         return 0
 
     def _texts(self, number: int) -> list[RankedText]:
-        """The texts of a half, as a stranger to their authors translates them."""
-        folder = self.folder / f"without_half_{number}"
-        if not (folder / CARD_FILE).exists():
-            half = half_of_authors(number)
-            self.recipe.train([each for each in learned_corpora() if each not in half], folder)
-        said = [t for path in half_of_authors(number) for t in ranked_texts(path, folder)]
-        return [*said, *paraphrased(PARAPHRASES, folder)]
+        """The texts of every second stranger, and paraphrases, as the translator takes them."""
+        paths = strangers()[number * 2 :: 4], strangers()[number * 2 + 1 :: 4]
+        said = [t for each in paths for path in each for t in ranked_texts(path, self.folder)]
+        return [*said, *paraphrased(PARAPHRASES, self.folder, number)]
 
 
-def half_of_authors(number: int) -> tuple[Path, ...]:
-    """Files of authors who are ranked together; the translator of their texts learned from others.
-
-    Args:
-        number: 0 or 1.
-    """
-    strangers = (each for each in learned_corpora() if author_of(each) >= FIRST_STRANGER)
-    return tuple(each for each in strangers if author_of(each) % 2 == number)
+def strangers() -> tuple[Path, ...]:
+    """The files of the authors whom the translator of the ranker does not know."""
+    known = (each for each in learned_corpora() if author_of(each) >= FIRST_STRANGER)
+    return tuple(each for each in known if author_of(each) % 2)
 
 
 def _show(language: str, texts: Sequence[tuple[RankedText, Iterable[float]]]) -> None:

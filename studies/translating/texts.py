@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from semnav_env.judge.episodes import load_episodes
 from semnav_env.language.clauses import IfThere, Turning
 from semnav_env.language.command import MAX_CLAUSES, Command, room_of
 from semnav_env.language.corpora import Sentence, load_sentences
@@ -85,6 +86,18 @@ def _authored(sentence: Sentence, rooms: tuple[str, ...]) -> TrainingText:
         commands = commands[:1]
     language = "de" if "german" in sentence.corpus else "en"
     return TrainingText(sentence.text, language, rooms, commands, sentence.topic)
+
+
+def of_episodes(split: str) -> Iterator[TrainingText]:
+    """The texts of frozen episodes."""
+    for episode in load_episodes(split):
+        rooms = episode.plan().room_names if room_of_any(episode.programs[0]) else ()
+        yield TrainingText(episode.command, episode.language, rooms, episode.programs[:1])
+
+
+def room_of_any(command: Command) -> str | None:
+    """The first room that a command names."""
+    return next(filter(None, map(room_of, command.clauses)), None)
 
 
 def generated(

@@ -49,14 +49,14 @@ class TranslatorTraining:
         shape: of the network.
     """
 
-    steps: Count = 12000
-    batch: Count = 32
+    steps: Count = 16000
+    batch: Count = 48
     rate: float = 1.5e-3
     warm_up: Count = 300
-    dropout: float = 0.15
+    dropout: float = 0.12
     word_dropout: float = 0.12
     value_dropout: float = 0.6
-    shape: TranslatorShape = field(default_factory=lambda: TranslatorShape(width=96, hidden=192))
+    shape: TranslatorShape = field(default_factory=lambda: TranslatorShape(128, 4, 3, 384))
 
     def __post_init__(self) -> None:
         check_fields(self)
