@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.language import Clause, read
+from semnav_env.language import Clause, parse
 from semnav_env.mind.grounding import Goal, ground
 from semnav_env.mind.grounding.goal import door_of
 from semnav_features.frames import Pose
@@ -17,7 +17,7 @@ DOORS = corridor(left=(2.0, 5.0, 9.0), right=(5.0, 7.0), end_door=True)
 
 
 def clause(text: str) -> Clause:
-    (only,) = read(text).clauses
+    (only,) = parse(text).clauses
     return only
 
 

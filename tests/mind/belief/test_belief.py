@@ -14,7 +14,7 @@ import pytest
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.language import read
+from semnav_env.language import parse
 from semnav_env.mind.belief import BeliefTracker
 from semnav_env.mind.belief.log_following import follow_log
 from semnav_features.readers import LogRecord
@@ -61,7 +61,7 @@ def test_a_first_scan_in_millimetres_is_refused(drive) -> None:
     record, believed = drive
     ranges, odometry, velocity, bumps = record.sensed[0]
     tracker = BeliefTracker(lidar="tim561", mount=record.mount)
-    tracker.begin(read(record.command))
+    tracker.begin(parse(record.command))
     with pytest.raises(ValueError, match="they look like millimetres: divide them by 1000"):
         tracker.update(1000.0 * ranges, odometry, velocity, bumps)
     assert described(tracker.update(ranges, odometry, velocity, bumps)) == believed[0]
@@ -70,7 +70,7 @@ def test_a_first_scan_in_millimetres_is_refused(drive) -> None:
 @pytest.mark.parametrize("value", [0.0, np.inf, np.nan, 65.535, 9999.0])
 def test_a_first_scan_without_any_return_is_taken(value: float) -> None:
     tracker = BeliefTracker(lidar="tim561")
-    tracker.begin(read(COMMAND))
+    tracker.begin(parse(COMMAND))
     assert tracker.update(np.full(811, value), (0.0, 0.0, 0.0)).scene.walls == ()
 
 
@@ -94,7 +94,7 @@ def test_bumps_are_part_of_what_is_recorded() -> None:
 def tracker() -> BeliefTracker:
     """Far from any wall, at the start of "turn around"."""
     fresh = BeliefTracker()
-    fresh.begin(read("turn around"))
+    fresh.begin(parse("turn around"))
     return fresh
 
 
@@ -174,7 +174,7 @@ def test_a_log_is_followed_as_the_robot_itself_would(drive) -> None:
         )
         for k, (ranges, odometry, _, _) in enumerate(record.sensed)
     ]
-    followed = follow_log(log, read(record.command), mount=record.mount)
+    followed = follow_log(log, parse(record.command), mount=record.mount)
     assert [described(belief) for _, belief in followed] == believed
 
 
@@ -213,5 +213,5 @@ def test_a_belief_keeps_its_scene_when_its_robot_is_pickled(drive) -> None:
         belief = robot.update(*each)
     before = len(belief.scene.walls)
     robot, belief = pickle.loads(pickle.dumps((robot, belief)))
-    robot.begin(read("turn around"))
+    robot.begin(parse("turn around"))
     assert len(belief.scene.walls) == before > 3

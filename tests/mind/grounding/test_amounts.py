@@ -18,7 +18,7 @@ from semnav_env.language import (
     decode,
     encode,
     from_program,
-    read,
+    parse,
     to_program,
 )
 from semnav_env.language.corpora.meanings import meaning_of, normal
@@ -57,18 +57,18 @@ def hallway_to(end: float) -> Scene:
     ],
 )
 def test_an_amount_without_a_number_is_some(text: str) -> None:
-    assert read(text).clauses == (Follow(SOME),)
+    assert parse(text).clauses == (Follow(SOME),)
 
 
 @pytest.mark.parametrize("text", ["back up a bit", "setz ein Stück zurück", "reverse a little"])
 def test_one_backs_up_by_some(text: str) -> None:
-    assert read(text).clauses == (BackUp(SOME),)
+    assert parse(text).clauses == (BackUp(SOME),)
 
 
 @pytest.mark.parametrize("text", ["turn a bit to the left", "bieg etwas nach links ab"])
 def test_an_amount_of_a_turn_is_no_distance(text: str) -> None:
     with pytest.raises(ValueError, match="by how much"):
-        read(text)
+        parse(text)
 
 
 @pytest.mark.parametrize("clause", [Follow(SOME), BackUp(SOME)])
@@ -76,7 +76,7 @@ def test_an_amount_is_the_same_in_every_notation(clause: Follow | BackUp) -> Non
     command = Command((clause,))
     assert decode(encode(command)) == from_program(to_program(command)) == command
     for language in ("en", "de"):
-        assert read(command.say(language), language) == command
+        assert parse(command.say(language), language) == command
     assert meaning_of(command) == read_meaning(notation_of(command))
 
 
@@ -121,7 +121,7 @@ def test_one_backs_up_by_less_where_there_is_less_room() -> None:
 )
 def test_some_before_what_says_where_is_only_a_direction(text: str, meaning: str) -> None:
     """As "go down the hallway" is; a turn is then made at the next place that allows it."""
-    command = read(text)
+    command = parse(text)
     assert normal(meaning_of(command)) == normal(read_meaning(meaning))
     assert is_only_a_direction(command.clauses, 0) is ("some" not in meaning)
 
@@ -154,4 +154,4 @@ def test_a_robot_goes_a_bit_and_stands(robot: str) -> None:
     ],
 )
 def test_a_number_behind_an_amount_says_how_much(text: str, meant: str) -> None:
-    assert str(read(text)) == meant
+    assert str(parse(text)) == meant

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
 from semnav_env import SemNavEnv
-from semnav_env.language import BackUp, Command, Distance, decode, encode, parse, read
+from semnav_env.language import BackUp, Command, Distance, decode, encode, parse
 from semnav_env.mind.grounding import GroundingError, ground
 from semnav_env.mind.grounding.backing_up import LANE, room_behind
 from semnav_features.frames import ORIGIN, compose
@@ -74,13 +74,13 @@ def test_nobody_backs_up_into_a_wall() -> None:
     ],
 )
 def test_only_a_distance_backwards_is_backed_up(text: str, meant: str) -> None:
-    assert str(read(text)) == meant
+    assert str(parse(text)) == meant
 
 
 @given(st.integers(1, 20))
 def test_a_token_of_backing_up_is_decoded(halves: int) -> None:
     command = Command((BackUp(Distance(halves / 2)),))
-    assert decode(encode(command)) == command == read(command.say("de"), "de")
+    assert decode(encode(command)) == command == parse(command.say("de"), "de")
 
 
 @pytest.mark.parametrize("far", [10.5, 50.0])

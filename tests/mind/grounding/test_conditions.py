@@ -26,7 +26,7 @@ from semnav_env.language import (
     correct,
     encode,
     from_program,
-    read,
+    parse,
     to_program,
     token_mask,
 )
@@ -52,7 +52,7 @@ WEST: Pose = (1.3, 9.1, 0.0)
 
 
 def following(text: str, scene: Scene = DOORS, complete: bool = True) -> Follower:
-    follower = Follower(read(text), complete=complete)
+    follower = Follower(parse(text), complete=complete)
     follower.start(scene, START)
     return follower
 
@@ -110,10 +110,10 @@ def test_a_condition_is_decided_at_the_end_of_the_corridor() -> None:
 
 def test_the_plan_decides_in_the_same_way() -> None:
     text = "if there is a {} door on the right, enter it, otherwise turn around"
-    (entered,) = plan_goals(PLAN, read(text.format("second")), WEST)
+    (entered,) = plan_goals(PLAN, parse(text.format("second")), WEST)
     assert isinstance(entered, PassGoal)
     assert entered.door.name == "west_south_2"
-    (turned,) = plan_goals(PLAN, read(text.format("ninth")), WEST)
+    (turned,) = plan_goals(PLAN, parse(text.format("ninth")), WEST)
     assert turned.because == "turn around here"
 
 
@@ -129,7 +129,7 @@ def test_the_plan_decides_in_the_same_way() -> None:
     ],
 )
 def test_conditions_speak_of_doors_behind_and_opposite(text: str, x: float, met: bool) -> None:
-    follower = Follower(read(text), complete=True)
+    follower = Follower(parse(text), complete=True)
     follower.start(DOORS, (x, 0.0, 0.0))
     assert follower.impossible is None
     assert follower.done is not met
@@ -176,7 +176,7 @@ def _rooms(command: Command) -> list[str]:
 )
 def test_clauses_without_what_they_refer_to_are_refused(text: str, error: str) -> None:
     with pytest.raises(CommandError, match=error):
-        read(text)
+        parse(text)
 
 
 @pytest.mark.parametrize(
@@ -203,10 +203,10 @@ def test_clauses_without_what_they_refer_to_are_refused(text: str, error: str) -
     ],
 )
 def test_the_end_of_a_command_can_be_corrected(said: str, correction: str, meant: str) -> None:
-    corrected = correct(read(said), correction)
+    corrected = correct(parse(said), correction)
     assert len(corrected.clauses) == 1
     assert meant in str(corrected)
-    assert read(f"stop, {said}, {correction}").clauses == (Stop(), *corrected.clauses)
+    assert parse(f"stop, {said}, {correction}").clauses == (Stop(), *corrected.clauses)
 
 
 @pytest.mark.parametrize(
@@ -221,16 +221,16 @@ def test_a_command_in_another_language_is_named_as_such(
     text: str, language: str, hint: str
 ) -> None:
     with pytest.raises(CommandError) as caught:
-        read(text, language)
+        parse(text, language)
     assert (hint in str(caught.value)) if hint else ("--language" not in str(caught.value))
 
 
 def test_a_language_goes_by_its_code_or_its_name() -> None:
     expected = Command((Follow(), Turn(Turning.LEFT)))
     for language in ("de", "german"):
-        assert read("fahr den Flur entlang und bieg links ab", language) == expected
+        assert parse("fahr den Flur entlang und bieg links ab", language) == expected
     with pytest.raises(ValueError, match=r"en \(english\), de \(german\)"):
-        read("stop", "fr")
+        parse("stop", "fr")
 
 
 def test_an_episode_takes_a_command_in_german() -> None:

@@ -22,7 +22,7 @@ from semnav_env.language import (
     decode,
     encode,
     from_program,
-    read,
+    parse,
     to_program,
 )
 from semnav_env.language.corpora.meanings import meaning_of, normal
@@ -57,7 +57,7 @@ THROUGH, TO, FACE = GoToDoor(DOOR), GoToDoor(DOOR, Approach.TO), Face(DOOR)
     ],
 )
 def test_the_door_we_came_in_by_is_understood(text: str, clause: GoToDoor | Face) -> None:
-    assert read(text).clauses == (clause,)
+    assert parse(text).clauses == (clause,)
 
 
 @pytest.mark.parametrize("clause", [THROUGH, TO, GoToDoor(DOOR, Approach.IN), FACE])
@@ -65,7 +65,7 @@ def test_the_entry_is_the_same_in_every_notation(clause: GoToDoor | Face) -> Non
     command = Command((clause,))
     assert decode(encode(command)) == from_program(to_program(command)) == command
     for language in ("en", "de"):
-        assert read(command.say(language), language) == command
+        assert parse(command.say(language), language) == command
     assert meaning_of(command) == read_meaning(notation_of(command))
     assert "door(entry)" in notation_of(command)
 
@@ -81,7 +81,7 @@ def test_the_entry_has_no_side_and_lies_not_ahead() -> None:
         with pytest.raises(ValueError, match="lies behind"):
             kind(DOOR)
     with pytest.raises(CommandError, match="lies behind"):
-        read("go past the door you came in by")
+        parse("go past the door you came in by")
 
 
 ONE_DOOR = Scene((), (Door((5.0, -0.5), (5.0, 0.5)),))
@@ -120,7 +120,7 @@ def test_a_robot_finds_the_door_it_came_by(robot: str) -> None:
         "and go out the door you came in by",
         "go through the second door on the right, turn around and go to the door you came in by",
     ):
-        observation, info = env.reset(seed=3, options={"command": read(text)})
+        observation, info = env.reset(seed=3, options={"command": parse(text)})
         for step in steps(env, agent, observation, info):
             info = step.info
         assert info["is_success"], (text, info["verdicts"])

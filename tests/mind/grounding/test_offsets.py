@@ -19,7 +19,7 @@ from semnav_env.language import (
     decode,
     encode,
     from_program,
-    read,
+    parse,
     to_program,
 )
 from semnav_env.language.corpora.meanings import meaning_of, normal
@@ -55,7 +55,7 @@ CASES = [tuple(line.split(" = ")) for line in TEXTS.strip().splitlines()]
 
 @pytest.mark.parametrize(("text", "meaning"), CASES)
 def test_a_distance_before_a_place_belongs_to_it(text: str, meaning: str) -> None:
-    assert normal(meaning_of(read(text))) == normal(read_meaning(meaning))
+    assert normal(meaning_of(parse(text))) == normal(read_meaning(meaning))
 
 
 @given(offsets)
@@ -65,7 +65,7 @@ def test_an_offset_is_the_same_in_words_programs_and_notation(clause: Follow) ->
     assert meaning_of(command) == read_meaning(notation_of(command))
     rooms = ("kitchen", "printer room", "3.508", "room_west_1", "left", "12 b", "e-1")
     for language in ("en", "de"):
-        assert read(command.say(language), language, rooms) == command
+        assert parse(command.say(language), language, rooms) == command
 
 
 def test_the_token_of_an_offset_is_that_of_its_place() -> None:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from semnav_agents.evaluation import drive
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.language import read
+from semnav_env.language import parse
 from semnav_env.mind.grounding import Goal, GroundingError, PassGoal, ReachGoal, SeekGoal
 from semnav_env.mind.grounding.follower import Follower
 from semnav_features.frames import Pose, compose
@@ -108,7 +108,7 @@ def test_long_turns_end_as_the_shorter_ones(text: str, turn: float) -> None:
 
 def look(text: str, scene: Scene, pose: Pose, begin: Pose | None = None) -> Follower:
     """A robot that began its last clause at `begin`, knows a scene and is now at a pose."""
-    follower = Follower(read(text))
+    follower = Follower(parse(text))
     follower.start(scene, pose if begin is None else begin)
     follower.advance(lambda: scene, pose, 0.0, 1 / 15)
     follower.look(scene, pose)
@@ -148,7 +148,7 @@ def test_a_finished_search_behind_says_what_there_is() -> None:
 def test_an_unseen_opposite_side_is_inspected_by_turning() -> None:
     text, half = TO_FIRST, Scene(tuple(w for w in FACING.walls if w.start[1] > -0.9))
     before: Pose = (3.0, 0.1, QUARTER)
-    follower = Follower(read(text))
+    follower = Follower(parse(text))
     follower.start(Scene(half.walls, FACING.doors[:1]), (0.0, 0.0, 0.0))
     follower.skip_to_next(Scene(half.walls, FACING.doors[:1]))
     assert isinstance(follower.goal, ReachGoal)
@@ -200,7 +200,7 @@ OUT = "go through the first door on the left, leave the room and go through the 
 def test_a_robot_that_sees_it_drives_there(robot: str, text: str, pose: Pose, door: str) -> None:
     agent = make_agent("scripted")
     env = SemNavEnv(robot, "office_cross", observation=agent.observation)
-    driven = drive(env, agent, 0, {"command": read(text), "pose": pose})
+    driven = drive(env, agent, 0, {"command": parse(text), "pose": pose})
     assert driven.cause == ""
     assert driven.judge.crossed[-1] == door
     assert driven.rechecked() == ""

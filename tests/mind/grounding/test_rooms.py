@@ -26,7 +26,7 @@ from semnav_env.language import (
     Turn,
     Turning,
     encode,
-    read,
+    parse,
 )
 from semnav_env.language.rooms import plain_name, spoken_names
 from semnav_env.mind.grounding import GroundingError, PassGoal, ReachGoal, SeekGoal, ground
@@ -81,22 +81,22 @@ def test_every_plain_name_is_one_that_a_command_can_hold(name: str) -> None:
 @pytest.mark.parametrize("said", ["café", "cafe", "CAFÉ", "cafe\u0301"])
 @pytest.mark.parametrize("words", ["go to the {}", "geh zum {}"])
 def test_a_room_is_named_with_its_accents_or_without(said: str, words: str) -> None:
-    assert read(words.format(said), rooms=("Café", "Foyer")) == Command((GoToRoom("cafe"),))
+    assert parse(words.format(said), rooms=("Café", "Foyer")) == Command((GoToRoom("cafe"),))
 
 
 def test_an_unknown_room_is_answered_with_known_ones() -> None:
     with pytest.raises(CommandError, match="the rooms here are: kitchen, lab 2"):
-        read("go to the ballroom", rooms=("kitchen", "lab 2"))
+        parse("go to the ballroom", rooms=("kitchen", "lab 2"))
     with pytest.raises(CommandError, match=r"are: 1\.00, .*, 1\.11, \.\.\."):
-        read("go to the ballroom", rooms=[f"1.{k:02}" for k in range(99)])
+        parse("go to the ballroom", rooms=[f"1.{k:02}" for k in range(99)])
     with pytest.raises(CommandError) as nowhere:
-        read("go to the ballroom")
+        parse("go to the ballroom")
     assert "rooms here" not in str(nowhere.value)
 
 
 def test_a_misspelt_room_is_answered_with_the_nearest_one() -> None:
     with pytest.raises(CommandError, match='Did you mean "library"') as caught:
-        read("go to the libary", rooms=("library", "kitchen"))
+        parse("go to the libary", rooms=("library", "kitchen"))
     assert caught.value.suggestion == "library"
 
 
@@ -115,7 +115,7 @@ def test_a_misspelt_room_is_answered_with_the_nearest_one() -> None:
 def test_the_rooms_of_the_villa_are_called_as_in_the_thesis(said: str, name: str) -> None:
     rooms = load_floor_plan("villa_hall").room_names
     for text in (f"go to {said}", f"go into {said}", f"enter {said}"):
-        assert read(text, rooms=rooms).clauses == (GoToRoom(name),)
+        assert parse(text, rooms=rooms).clauses == (GoToRoom(name),)
 
 
 def test_room_numbers_may_be_short_where_they_are_unique() -> None:
@@ -130,9 +130,9 @@ def test_room_numbers_may_be_short_where_they_are_unique() -> None:
         ("go to west 1", "room_west_1"),
         ("go to the kitchen", "kitchen"),
     ):
-        assert read(text, rooms=rooms) == Command((GoToRoom(name),))
+        assert parse(text, rooms=rooms) == Command((GoToRoom(name),))
     assert "414 a" not in spoken_names(rooms)
-    assert encode(read("go to the kitchen", rooms=rooms), rooms)[0, 3] == 5
+    assert encode(parse("go to the kitchen", rooms=rooms), rooms)[0, 3] == 5
 
 
 def test_every_way_leads_through_the_door_of_its_room() -> None:
@@ -202,7 +202,7 @@ def test_the_seen_door_is_passed_however_inexact_the_told_one(
         compose(middle, (0.0, -0.5, 0.0))[:2],
     )
     way = Way(paced(((0.0, 0.0), middle[:2])), door, middle[2])
-    (clause,) = read('go to room "kitchen"').clauses
+    (clause,) = parse('go to room "kitchen"').clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), (x - 1.0, 0.0, 0.0), way=way)
     assert isinstance(goal, PassGoal)
     assert goal.door == seen
@@ -212,13 +212,13 @@ def test_the_seen_door_is_passed_however_inexact_the_told_one(
 
 
 def test_without_a_way_a_room_is_refused() -> None:
-    (clause,) = read('go to room "kitchen"').clauses
+    (clause,) = parse('go to room "kitchen"').clauses
     with pytest.raises(GroundingError, match="has not been told the way"):
         ground(clause, DOORS, (0.0, 0.0, 0.0))
 
 
 def judged(command: str, *walk: tuple[float, float], start: Pose = WEST) -> Judge:
-    judge = Judge(plan_mission(PLAN, GEODESIC, read(command, rooms=PLAN.room_names), start))
+    judge = Judge(plan_mission(PLAN, GEODESIC, parse(command, rooms=PLAN.room_names), start))
     x, y = start[:2]
     for bx, by in walk:
         for share in np.linspace(0.0, 1.0, max(2, int(math.dist((x, y), (bx, by)) / 0.1)))[1:]:
@@ -251,7 +251,7 @@ def test_coming_back_is_done_at_the_start() -> None:
 def test_after_coming_back_counting_begins_as_at_the_start() -> None:
     first, _, again = plan_goals(
         PLAN,
-        read("enter the first door on the right, come back and enter the first door on the right"),
+        parse("enter the first door on the right, come back and enter the first door on the right"),
         WEST,
     )
     assert first.door == again.door
@@ -259,7 +259,7 @@ def test_after_coming_back_counting_begins_as_at_the_start() -> None:
 
 @pytest.mark.parametrize("seconds", [1, 12, 40])
 def test_waiting_takes_its_time_and_is_not_stopping_short(seconds: int) -> None:
-    judge = Judge(plan_mission(PLAN, GEODESIC, read(f"wait for {seconds} seconds"), WEST))
+    judge = Judge(plan_mission(PLAN, GEODESIC, parse(f"wait for {seconds} seconds"), WEST))
     steps = 0
     while not judge.over:
         judge.update(Motion(WEST, 0.0, 0.0, in_contact=False, seconds=1 / 15))
@@ -269,7 +269,7 @@ def test_waiting_takes_its_time_and_is_not_stopping_short(seconds: int) -> None:
 
 
 def test_whoever_moves_begins_to_wait_anew() -> None:
-    follower = Follower(read("wait for 2 seconds"), complete=True)
+    follower = Follower(parse("wait for 2 seconds"), complete=True)
     follower.start(DOORS, (0.0, 0.0, 0.0))
     speeds = [0.0] * 25 + [0.5] + [0.0] * 25
     assert not any(
@@ -296,7 +296,7 @@ def test_a_trail_leads_back_to_its_start_without_loops(corners: list[tuple[float
 
 def test_a_way_is_driven_place_by_place_despite_drift() -> None:
     way = Way(paced(((0.0, 0.0), (20.0, 0.0))))
-    (clause,) = read("go back to the start").clauses
+    (clause,) = parse("go back to the start").clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)
     for x in np.arange(0.0, 19.0, 0.5):
         towards = next_on_way(goal, (float(x), 0.8, 0.0), GroundingRules())
@@ -311,7 +311,7 @@ def test_a_way_is_driven_place_by_place_despite_drift() -> None:
 def test_a_way_that_bends_a_little_leads_to_no_place_beside_it() -> None:
     """A place lies as far beside the way as the robot does here, not off its later direction."""
     way = Way(((0.0, 0.0), (1.5, 0.0), (3.0, 0.0), (4.5, -0.7), (6.0, -1.4), (7.5, -2.1)))
-    (clause,) = read("go back to the start").clauses
+    (clause,) = parse("go back to the start").clauses
     goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)
     for beside in (-0.4, 0.0, 0.4):
         towards = next_on_way(goal, (0.2, beside, 0.0), GroundingRules())

@@ -12,7 +12,7 @@ import pytest
 
 from semnav_env.judge import plan_goals
 from semnav_env.judge.routes.route import Route
-from semnav_env.language import read
+from semnav_env.language import parse
 from semnav_env.mind.belief import BeliefTracker
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.mind.grounding.goal import door_of
@@ -26,7 +26,7 @@ from tests.support.situations import ROWS, Row, situation
 
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.id)
 def test_a_command_means_what_the_table_says(row: Row) -> None:
-    plan, command = situation(row.situation), read(row.command)
+    plan, command = situation(row.situation), parse(row.command)
     if isinstance(row.expected, str) and " " in row.expected:
         with pytest.raises(GroundingError, match=re.escape(row.expected)):
             plan_goals(plan, command, row.begin)
@@ -59,7 +59,7 @@ def way(row: Row) -> Iterator[Pose]:
 
     Where doors are counted from the end it has a look at the end first.
     """
-    *goals, last = plan_goals(situation(row.situation), read(row.command), row.begin)
+    *goals, last = plan_goals(situation(row.situation), parse(row.command), row.begin)
     stops = [pose for goal in goals for pose in (goal.onward or goal.pose, goal.pose)]
     if last.corridor is not None and re.search("last|other", row.command):
         stops.append(last.corridor.place(last.corridor.end - 1.0))
@@ -72,7 +72,7 @@ def way(row: Row) -> Iterator[Pose]:
 
 def made_out(row: Row) -> list[Point]:
     """The middles of the doors that such a robot takes for the one meant, as it goes."""
-    plan, command = situation(row.situation), read(row.command)
+    plan, command = situation(row.situation), parse(row.command)
     lidar = Lidar(plan, mount=WHEELCHAIR.lidar_mount)
     tracker = BeliefTracker(lidar.spec, lidar.mount)
     tracker.begin(command)

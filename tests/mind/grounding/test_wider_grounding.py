@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from semnav_env.language import read
+from semnav_env.language import parse
 from semnav_env.mind.grounding import Goal, GroundingError, PassGoal, SeekGoal, ground
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import door_of
@@ -21,7 +21,7 @@ DOORS = corridor(left=(2.0, 5.0, 9.0), right=(5.0, 7.0))
 
 def goals_of(text: str, scene: Scene, start: Pose = START) -> list[Goal]:
     """The goals of a command on a scene that is wholly known, each from where the last leads."""
-    follower = Follower(read(text), complete=True)
+    follower = Follower(parse(text), complete=True)
     follower.start(scene, start)
     goals = []
     while not follower.done:
@@ -75,7 +75,7 @@ def test_the_other_door_is_the_only_one() -> None:
 
 
 def test_the_last_door_is_sought_until_the_end_is_seen() -> None:
-    (clause,) = read("take the second-to-last door on the left").clauses
+    (clause,) = parse("take the second-to-last door on the left").clauses
     assert isinstance(ground(clause, DOORS, START, (4.0, 0.0, 0.0)), SeekGoal)
     assert isinstance(ground(clause, DOORS, START, (12.6, 0.0, 0.0)), PassGoal)
 

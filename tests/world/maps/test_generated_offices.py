@@ -15,7 +15,7 @@ from shapely import LineString, Point
 
 from semnav_env.judge import Judge
 from semnav_env.judge.tasks import EpisodeRequest, MissionMaker
-from semnav_env.language import read
+from semnav_env.language import parse
 from semnav_env.mind.grounding import ReachGoal
 from semnav_env.robots import ROBOTS, WHEELCHAIR
 from semnav_env.world.maps import (
@@ -158,7 +158,7 @@ def test_a_large_distribution_has_offices_of_60_rooms() -> None:
 def test_a_command_may_name_every_room(seed: int, name: str) -> None:
     plan = generate_office(seed, name)
     for room in plan.room_names:
-        assert read(f"go to {room}", rooms=plan.room_names).clauses[-1].name == room
+        assert parse(f"go to {room}", rooms=plan.room_names).clauses[-1].name == room
 
 
 @every_distribution
