@@ -9,7 +9,7 @@ CONTEXT_BEFORE, CONTEXT_AFTER = 48, 24
 fault it fits into a line of a terminal."""
 
 MAX_WORDS_LISTED = 12
-"""The most words that an error lists as possible at one place."""
+"""The most names that an error lists."""
 
 
 class CommandError(ValueError):
@@ -22,8 +22,6 @@ class CommandError(ValueError):
         text: the text as it was given, or its beginning.
         position: index in `text` of the first wrong character; None if the whole text is wrong.
         length: number of wrong characters.
-        expected: words that could stand there.
-        suggestion: the known word that was probably meant, or several with commas.
         hint: advice on what to say instead.
     """
 
@@ -33,32 +31,20 @@ class CommandError(ValueError):
         text: str = "",
         position: int | None = None,
         length: int = 1,
-        expected: tuple[str, ...] = (),
-        suggestion: str | None = None,
         hint: str | None = None,
     ) -> None:
-        super().__init__(problem, text, position, length, expected, suggestion, hint)
+        super().__init__(problem, text, position, length, hint)
         self.problem = problem
         self.text = text
         self.position = position
         self.length = length
-        self.expected = expected
-        self.suggestion = suggestion
         self.hint = hint
 
     @property
     def summary(self) -> str:
-        """The problem, hint, expected words and suggestion in one line."""
+        """The problem and the hint in one line."""
         where = "" if self.position is None else f" (character {self.position + 1})"
-        parts = [self.problem + where]
-        if self.hint:
-            parts.append(self.hint)
-        if self.expected:
-            one_of = "expected: " if len(self.expected) == 1 else "expected one of: "
-            parts.append(one_of + listed(self.expected))
-        if self.suggestion:
-            parts.append(f'did you mean "{self.suggestion}"?')
-        return "; ".join(parts)
+        return "; ".join(filter(None, (self.problem + where, self.hint)))
 
     def __str__(self) -> str:
         if self.position is None:

@@ -9,9 +9,6 @@ from typing import Any
 
 from semnav_env.language.words import fold
 
-DIGITS_HINT = "0-9"
-"""The key in `Language.hints` of all words that begin with a digit."""
-
 
 @dataclass(frozen=True, eq=False)
 class Language:
@@ -27,7 +24,6 @@ class Language:
         decimal: the decimal sign.
         punctuation: characters that part clauses or end a command.
         same_as: characters that are read as others.
-        hints: advice for words that people often try and that are not understood.
         phrases: format strings that put commands in words; "door:to" is a form of "door".
         answers: what people answer to a question: words for yes and no, for the first and the
             second of two choices, for sides and approaches, and words that may stand beside.
@@ -44,13 +40,12 @@ class Language:
     decimal: str
     punctuation: str
     same_as: dict[str, str]
-    hints: dict[str, str]
     phrases: dict[str, str]
     answers: dict[str, tuple[str, ...]]
     wordings: dict[str, tuple[str, ...]]
 
     def folded(self, words: str) -> str:
-        """Words in the spelling that the grammar reads."""
+        """Words in the spelling in which they are read."""
         return fold(words, self.same_as)
 
     def number_text(self, amount: float) -> str:
@@ -62,10 +57,6 @@ class Language:
         if number == 0:
             return self.other
         return self.ordinals[number - 1][0] if number > 0 else self.from_end[-number - 1][0]
-
-    def hint(self, word: str) -> str | None:
-        """Advice for a word that was not understood; None if there is none."""
-        return self.hints.get(DIGITS_HINT if word[:1].isdigit() else word)
 
     def say(self, phrase: str, form: str = "", **parts: Any) -> str:
         """Put a phrase in words, in the given form if the language has it.

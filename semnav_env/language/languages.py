@@ -27,7 +27,6 @@ def load(name: str) -> Language:
         decimal=table["decimal"],
         punctuation=table["punctuation"],
         same_as=same_as,
-        hints={fold(w, same_as): hint["say"] for hint in table["hints"] for w in hint["words"]},
         phrases=table["phrases"],
         answers={key: tuple(words) for key, words in table["answers"].items()},
         wordings={key: tuple(words) for key, words in table["wordings"].items()},

@@ -60,7 +60,7 @@ class NormalisedText:
 
 
 def normalise(original: str, language: Language) -> NormalisedText:
-    """Bring a text into the one form that the grammar reads.
+    """Bring a text into the one form that is read.
 
     Raises:
         CommandError: it is not a text, is empty or too long, or has characters that no command has.

@@ -13,7 +13,7 @@ class OwnClause(Clause, ABC):
     """Base of clauses that are defined outside this package, see docs/extending.md.
 
     `semnav_env.mind.grounding.GroundedClause` derives from it and adds where a clause leads. The
-    grammar has no words for such a clause: a command with it is given as a `Command`.
+    reader has no words for such a clause: a command with it is given as a `Command`.
     """
 
     __slots__ = ()

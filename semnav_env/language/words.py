@@ -1,4 +1,4 @@
-"""Cuts a normalised text into words, and finds the terminals of a grammar that they form."""
+"""Cuts a normalised text into words."""
 
 from __future__ import annotations
 

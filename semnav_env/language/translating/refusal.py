@@ -10,7 +10,6 @@ from semnav_env.language.errors import CommandError, listed
 from semnav_env.language.language import Language
 from semnav_env.language.languages import languages
 from semnav_env.language.normalise import normalise
-from semnav_env.language.translating.support import FORBIDDING
 from semnav_env.language.translating.translator import TranslatedText
 from semnav_env.language.translating.word_classes import UNKNOWN, classes_of
 from semnav_env.language.vocabulary.lexicon import lexicon_of
@@ -22,7 +21,8 @@ CAUSES = (
     ("refused_thing", ("beyond",)),
     ("refused_room", ("noun area",)),
     ("refused_word", (UNKNOWN,)),
-    ("refused", FORBIDDING),
+    ("refused_not", ("not",)),
+    ("refused_or", ("or",)),
 )
 """What is said of the first word that belongs to some classes and to no others. The first cause
 that there is counts."""
@@ -56,8 +56,8 @@ class Refusal:
             for piece, known in self._words:
                 if known and known <= set(kinds):
                     return self._about(piece, phrase)
-        question = self.spoken.hint("?") if "?" in self.text else None
-        return CommandError(question or self.spoken.say("refused"), self.text, hint=self._nearest())
+        problem = "refused_question" if "?" in self.text else "refused"
+        return CommandError(self.spoken.say(problem), self.text, hint=self._nearest())
 
     @cached_property
     def _words(self) -> list[tuple[TextPiece, set[str]]]:
@@ -75,16 +75,12 @@ class Refusal:
         return CommandError(problem, self.text, start, length, hint=hint)
 
     def _advice(self, phrase: str, word: str) -> str | None:
-        say = self.spoken.say
-        match phrase:
-            case "refused_room" if self.rooms:
-                return say("rooms_here", rooms=listed(tuple(self.rooms)))
-            case "refused_room":
-                return say("rooms_unknown")
-            case "refused_word":
-                nearest = nearest_word(word, lexicon_of(self.spoken).words)
-                return say("did_you_mean", word=nearest) if nearest else None
-        return self.spoken.hint(word)
+        nearest = nearest_word(word, lexicon_of(self.spoken).words)
+        if phrase == "refused_word" and nearest:
+            return self.spoken.say("did_you_mean", word=nearest)
+        if phrase in ("refused_word", "refused_room") and self.rooms:
+            return self.spoken.say("rooms_here", rooms=listed(tuple(self.rooms)))
+        return self.spoken.say("rooms_unknown") if phrase == "refused_room" else None
 
     def _nearest(self) -> str | None:
         """The likeliest command, for the speaker to say it if it is meant."""
