@@ -9,7 +9,7 @@ from collections.abc import Callable
 
 from hypothesis import strategies as st
 
-from semnav_env.language import CommandError, parse, read
+from semnav_env.language import CommandError, parse
 
 CHARACTERS = (
     *string.printable,
@@ -34,7 +34,7 @@ MOST_SECONDS = 2.0
 READERS: tuple[tuple[Callable[[str, str | None], object], str | None], ...] = (
     (parse, "en"),
     (parse, "de"),
-    (read, None),
+    (parse, None),
 )
 """What reads them, and the language that it is told."""
 
