@@ -15,6 +15,10 @@ from numpy.typing import NDArray
 Array = NDArray[np.float32]
 Shapes = dict[str, tuple[int, ...]]
 
+MOST_PRODUCTS = 1 << 18
+"""The most products of a matrix multiplication that OpenBLAS does in the calling thread. Larger ones
+it parts among threads, which for matrices of this size wait longer than they work on busy cores."""
+
 EPSILON = 1e-5
 """Keeps the normalisation of a layer finite."""
 
@@ -26,8 +30,16 @@ def linear_shapes(name: str, inputs: int, outputs: int) -> Shapes:
 
 def linear(tensors: Mapping[str, Array], name: str, x: Array) -> Array:
     """A linear layer: `NAME.weight`, shape (outputs, inputs), and `NAME.bias`."""
-    result: Array = x @ tensors[f"{name}.weight"].T + tensors[f"{name}.bias"]
+    result: Array = _product(x, tensors[f"{name}.weight"].T) + tensors[f"{name}.bias"]
     return result
+
+
+def _product(x: Array, weight: Array) -> Array:
+    """`x @ weight`, so many rows at a time that no other thread is asked."""
+    if x.ndim == 1 or x.shape[0] * weight.size <= MOST_PRODUCTS:
+        return x @ weight
+    rows = max(1, MOST_PRODUCTS // weight.size)
+    return np.concatenate([x[k : k + rows] @ weight for k in range(0, len(x), rows)])
 
 
 def perceptron_shapes(name: str, inputs: int, hidden: int, outputs: int) -> Shapes:
