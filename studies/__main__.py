@@ -8,6 +8,7 @@ STUDIES = CommandTable(
     "python -m studies",
     "Measurements of the package; `python -m studies.figures --help` lists the pictures.",
     {
+        "answers": ("studies.answers.command", "what right answers on real floors depend on"),
         "buildings": ("studies.buildings.command", "doors in scans of real floors"),
         "clouds": ("studies.clouds.command", "door jambs in point clouds, after Mes 2021"),
         "drift": ("studies.drift.command", "success against drift of odometry"),

@@ -70,22 +70,29 @@ class StableAnswers:
     def change(self, command: Command, start: Pose) -> str | None:
         """The cause of the first variant that gives another answer; None if there is none."""
         guide = RoomGuide(self.plan, command, self.plan.derived(Geodesic))
-        answer = self._answer(command, start, guide)
+        answer = self.answer(command, start, guide)
         for variant in self.variants:
             moved = compose(start, variant.shift)
-            found = self._answer(command, moved, KnownWays(guide.ways), variant.scene)
+            found = self.answer(command, moved, KnownWays(guide.ways), variant.scene)
             if not same_answer(answer, found):
                 return variant.cause
         return None
 
-    def _answer(
+    def answer(
         self,
         command: Command,
         start: Pose,
         guide: RoomGuide | KnownWays,
         scene: StillScene | None = None,
     ) -> tuple[Goal, ...]:
-        """The goals of a command, as far as it can be carried out."""
+        """The goals of a command, as far as it can be carried out.
+
+        Args:
+            command: what is said.
+            start: where, world frame.
+            guide: tells the ways to rooms.
+            scene: that of a `Variant`; None for the plan's own.
+        """
         goals: tuple[Goal, ...] = ()
         try:
             for _, goal in goals_in_turn(self.plan, command, start, guide, scene=scene):

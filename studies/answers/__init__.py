@@ -1,0 +1,1 @@
+"""What the right answers to commands on real floors depend on."""
