@@ -58,8 +58,10 @@ class Visits:
             await _talk(websocket, session, outbox)
         finally:
             session.end()
-            await asyncio.shield(asyncio.to_thread(session.join, PATIENCE))
-            self.now.discard(session)
+            try:
+                await asyncio.to_thread(session.join, PATIENCE)
+            finally:  # also if the server ends meanwhile
+                self.now.discard(session)
 
 
 async def _talk(websocket: WebSocket, session: PageSession, outbox: Outbox) -> None:

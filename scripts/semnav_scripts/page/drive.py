@@ -7,6 +7,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+from shapely import Polygon
+
 from semnav_agents.base import PlanReader
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
@@ -18,6 +20,7 @@ from semnav_env.world.dynamics import Dynamics
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_env.world.maps.floor_plan import Material, Surface
 from semnav_features.frames import Point, Pose
+from semnav_features.validation import require
 from semnav_scripts.page.frame_message import frame_message
 from semnav_scripts.page.plan_message import body_message, plan_message
 from semnav_scripts.page.requests import SceneRequest
@@ -146,10 +149,17 @@ class PageDrive:
 
 
 def _with_boxes(plan: FloorPlan, places: tuple[Point, ...]) -> FloorPlan:
-    """The plan with a box at each place; itself without places."""
+    """The plan with a box at each place; itself without places.
+
+    Raises:
+        ValueError: a box would not lie inside the plan.
+    """
     if not places:
         return plan
-    boxes = (Surface(tuple(_square(*place)), Material.FURNITURE) for place in places)
+    outlines = [tuple(_square(*place)) for place in places]
+    for place, outline in zip(places, outlines, strict=True):
+        require(plan.boundary.covers(Polygon(outline)), "box", place, "inside the floor plan")
+    boxes = (Surface(outline, Material.FURNITURE) for outline in outlines)
     return replace(plan, surfaces=(*plan.surfaces, *boxes))
 
 

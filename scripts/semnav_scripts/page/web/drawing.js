@@ -1,6 +1,7 @@
 // Draws a moment of a run over its floor plan.
 
 const EVERY_BEAM = 9; // of the beams one in so many is drawn; more would blur
+const LABEL_FONT = "11px system-ui, sans-serif";
 let paint; // the canvas' 2D context
 let view; // the camera
 let colour; // of a name in style.css
@@ -17,6 +18,7 @@ export function draw(context, camera, scene, moment, extra) {
   drawFloor(scene.plan);
   if (moment) drawScan(moment);
   drawSolids(scene.plan);
+  drawNames(scene.plan.rooms);
   if (moment) drawMoment(moment, scene, extra.trail);
   else drawBody(scene.body, scene.start);
   if (extra.placing) drawBody(scene.body, extra.placing);
@@ -28,15 +30,16 @@ function drawFloor(plan) {
   fill(plan.boundary, "floor");
   for (const room of plan.rooms) fill(room.points, "room");
   for (const corridor of plan.corridors) fill(corridor.points, "corridor");
-  paint.font = "11px system-ui, sans-serif";
-  paint.textAlign = "center";
-  paint.textBaseline = "middle";
-  paint.fillStyle = colour("name");
-  for (const room of plan.rooms) {
-    const name = room.name.replaceAll("_", " ");
-    const xs = room.points.map(([x]) => x);
+}
+
+/** The names of the rooms that are wide enough for them. */
+function drawNames(rooms) {
+  for (const { name, points, at } of rooms) {
+    const words = name.replaceAll("_", " ");
+    const xs = points.map(([x]) => x);
+    paint.font = LABEL_FONT;
     const wide = (Math.max(...xs) - Math.min(...xs)) * view.scale;
-    if (paint.measureText(name).width < wide - 8) paint.fillText(name, view.x(room.at[0]), view.y(room.at[1]));
+    if (paint.measureText(words).width < wide - 8) label(words, view.x(at[0]), view.y(at[1]), "name", "room");
   }
 }
 
@@ -92,16 +95,16 @@ function drawDoor({ ends, confidence }) {
 function drawNumber({ ends, number, confidence }) {
   const [x1, y1, x2, y2] = ends.map((value) => value / 100);
   const length = Math.hypot(x2 - x1, y2 - y1) || 1;
-  const away = 16 / view.scale / length;
-  const x = view.x((x1 + x2) / 2 + away * (y2 - y1));
-  const y = view.y((y1 + y2) / 2 - away * (x2 - x1));
+  const [away, up] = [(y1 - y2) / length, (x1 - x2) / length]; // to the robot's side, in pixels
+  const x = view.x((x1 + x2) / 2) + 16 * away;
+  const y = view.y((y1 + y2) / 2) + 16 * up;
   paint.beginPath();
   paint.arc(x, y, 9, 0, 7);
   paint.fillStyle = colour("door");
   paint.fill();
   stroke("halo", 1.5);
   text(String(number), x, y, "halo", "bold 11px system-ui, sans-serif");
-  if (confidence !== null) label(`${Math.round(100 * confidence)} %`, x, y + 17, "door");
+  if (confidence !== null) label(`${Math.round(100 * confidence)} %`, x + 23 * away, y + 17 * up, "door");
 }
 
 function drawGoal({ kind, pose }, robot) {
@@ -202,11 +205,11 @@ function disc(x, y, radius, name) {
 }
 
 /** Text on a halo, so that it can be read on anything. */
-function label(words, x, y, name) {
-  paint.font = "600 10px system-ui, sans-serif";
+function label(words, x, y, name, halo = "halo") {
+  paint.font = LABEL_FONT;
   paint.textAlign = "center";
   paint.textBaseline = "middle";
-  paint.strokeStyle = colour("halo");
+  paint.strokeStyle = colour(halo);
   paint.lineWidth = 3;
   paint.strokeText(words, x, y);
   paint.fillStyle = colour(name);

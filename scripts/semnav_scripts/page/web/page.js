@@ -59,8 +59,8 @@ const send = connect({
   refused(message) { talk.showRefusal(message); },
   asked(message) { talk.showQuestion(message, (text) => send("answer", { text })); },
   frame(message) {
-    if (run === "none") return redraw();
     moment = message;
+    if (run === "none") return showStart(message);
     trail.push(message.pose);
     talk.tick(message.verdicts);
     narrate(message);
@@ -102,6 +102,12 @@ function begin(state) {
   byId("film").disabled = run === "none";
   if (fresh) byId("clock").textContent = "";
   if (fresh) showDoors();
+}
+
+/** Show what the robot sees before it is told anything. */
+function showStart(message) {
+  moment = { ...message, goal: null, doors: message.doors.map((door) => ({ ...door, number: null })) };
+  redraw();
 }
 
 function command(text) {
