@@ -54,7 +54,9 @@ class Visitor:
 
 @contextmanager
 def visitor(client, **headers):
-    with client.websocket_connect(f"{HOME.replace('http', 'ws')}/session", headers=headers) as socket:
+    with client.websocket_connect(
+        f"{HOME.replace('http', 'ws')}/session", headers=headers
+    ) as socket:
         yield Visitor(socket)
 
 

@@ -18,6 +18,7 @@ let scene = null; // the last message "scene"
 let moment = null; // the last message "frame" of a run
 let trail = [];
 let run = "none"; // or "driving", "paused", "over"
+let pending = 0; // scenes that were asked for and are not there yet
 let afterScene = null; // a command to give as soon as the scene is there
 let shut = new Set(); // doors shut by hand
 let settled = 0; // clauses that a screen reader was told of
@@ -32,23 +33,21 @@ const send = connect({
     byId("command").value = asked.command;
     byId("language").value = asked.language;
     afterScene = asked.command || null;
-    send("scene", location.search ? asked.scene : FIRST);
+    askScene(location.search ? asked.scene : FIRST);
   },
   scene(message) {
     const moved = scene?.plan.name !== message.plan.name;
     scene = message;
     begin("none");
     talk.clear();
-    showScene(message.scene);
     listDoors();
     byId("reason").textContent = "";
     byId("clear-boxes").disabled = !scene.scene.boxes.length;
     byId("suggestion").textContent = `Try: ${message.suggestion}`;
-    byId("suggestion").hidden = false;
     if (moved) camera.show(message.plan.bounds);
-    if (afterScene) command(afterScene);
-    afterScene = null;
     redraw();
+    pending -= 1;
+    if (!pending) settle();
   },
   understood({ clauses }) {
     talk.showClauses(clauses);
@@ -65,7 +64,7 @@ const send = connect({
     talk.tick(message.verdicts);
     narrate(message);
     byId("reason").textContent = message.reasons.length ? `The robot: ${message.reasons.join("; ")}` : "";
-    byId("clock").textContent = `${message.seconds.toFixed(1)} s`;
+    byId("clock").textContent = `${message.seconds.toFixed(2)} s`;
     redraw();
   },
   ended(message) {
@@ -83,7 +82,8 @@ const send = connect({
     byId("kept").textContent = "";
     byId("film").disabled = run === "none";
     talk.say(text, "failed");
-    if (scene) showScene(scene.scene);
+    if (pending) [pending, afterScene] = [0, null];
+    if (scene) settle();
   },
   closed() {
     byId("connection").textContent = "not connected: reload the page when the server is there";
@@ -120,7 +120,21 @@ function command(text) {
 /** Ask for a scene with some changes; a command that was being carried out begins again in it. */
 function change(changes) {
   if (run === "driving") afterScene = byId("command").value;
-  send("scene", { ...readScene(), boxes: scene.scene.boxes, ...changes });
+  askScene({ ...readScene(), boxes: scene.scene.boxes, ...changes });
+}
+
+function askScene(asked) {
+  pending += 1;
+  byId("suggestion").hidden = true;
+  send("scene", asked);
+}
+
+/** The last scene that was asked for is there: show it, and give the command that waits for it. */
+function settle() {
+  showScene(scene.scene);
+  byId("suggestion").hidden = false;
+  if (afterScene) command(afterScene);
+  afterScene = null;
 }
 
 /** Keep scene and command in the address. */
