@@ -17,19 +17,19 @@ from tests.support.paths import source
 
 pytest.importorskip("starlette", reason='needs pip install "semnav-env[serve]"')
 pytest.importorskip("httpx2", reason="the test client of Starlette needs httpx2")
-
-from starlette.testclient import TestClient
-from starlette.websockets import WebSocketDisconnect
-
-from semnav_scripts.page.app import page_app
+TestClient = pytest.importorskip("starlette.testclient").TestClient
+WebSocketDisconnect = pytest.importorskip("starlette.websockets").WebSocketDisconnect
 
 HOME = "http://127.0.0.1:8321"
+SESSION = "ws://127.0.0.1:8321/session"
 SCENE = {"type": "scene", "pose": [-2.5, -0.6, 0.25]}
 SECOND_DOOR = {"type": "command", "text": "go through the second door on the right"}
 
 
 @pytest.fixture
 def client():
+    from semnav_scripts.page.app import page_app
+
     with TestClient(page_app(sessions=2), base_url=HOME) as opened:
         yield opened
 

@@ -9,18 +9,15 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("starlette", reason='needs pip install "semnav-env[serve]"')
-pytest.importorskip("playwright", reason="needs Playwright: make browser")
+from semnav_scripts.page.listening import listening
+
+uvicorn = pytest.importorskip("uvicorn", reason='needs pip install "semnav-env[serve]"')
+playwright = pytest.importorskip("playwright.sync_api", reason="no Playwright: make browser")
 CHROMIUM = Path("/usr/bin/chromium")
 if not CHROMIUM.exists():
     pytest.skip(f"there is no {CHROMIUM}: make browser", allow_module_level=True)
 
-import uvicorn
-from playwright.sync_api import expect, sync_playwright
-
-from semnav_scripts.page.app import page_app
-from semnav_scripts.page.listening import listening
-
+expect = playwright.expect
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking"]
 PHONE = {"width": 360, "height": 740}
 COMMAND = "go through the second door on the right"
@@ -31,6 +28,8 @@ PATIENCE = 60_000
 @contextmanager
 def served():
     """The address of a running server."""
+    from semnav_scripts.page.app import page_app
+
     with listening("127.0.0.1", 0) as place:
         server = uvicorn.Server(uvicorn.Config(page_app(), log_level="warning"))
         thread = threading.Thread(target=server.run, kwargs={"sockets": [place]})
@@ -52,8 +51,8 @@ def address():
 
 @pytest.fixture(scope="module")
 def browser():
-    with sync_playwright() as playwright:
-        opened = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+    with playwright.sync_playwright() as driver:
+        opened = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
         yield opened
         opened.close()
 
@@ -226,10 +225,9 @@ def test_nothing_is_wider_than_a_phone_and_text_can_be_read(browser, address, sc
 
 def test_everything_that_can_be_used_has_a_name(page):
     """What a screen reader says of buttons, fields and lists."""
+    labels = "[...(e.labels ?? [])].map(label => label.textContent).join()"
     for element in page.locator("button:visible, input:visible, select:visible, canvas").all():
-        name = element.evaluate(
-            "e => e.ariaLabel || e.textContent.trim() || [...(e.labels ?? [])].map(l => l.textContent).join()"
-        )
+        name = element.evaluate(f"e => e.ariaLabel || e.textContent.trim() || {labels}")
         assert name.strip(), element.evaluate("e => e.outerHTML")
     assert page.locator("#verdict").get_attribute("role") == "status"
     assert page.locator("#heard").get_attribute("aria-live") == "polite"

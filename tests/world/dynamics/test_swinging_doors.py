@@ -139,7 +139,7 @@ def test_a_door_held_by_hand_stays_as_it_is_until_the_next_episode() -> None:
 def test_only_a_door_with_a_leaf_can_be_held() -> None:
     world = world_of("office_cross", "wheelchair", BY_HAND)
     assert world.moving is not None
-    with pytest.raises(ValueError, match="'nowhere'; it must be one of .*west_north_2"):
+    with pytest.raises(ValueError, match=r"'nowhere'; it must be one of .*west_north_2"):
         world.moving.doors.hold("nowhere", True)
 
 
