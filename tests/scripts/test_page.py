@@ -5,15 +5,18 @@ from __future__ import annotations
 import asyncio
 import json
 import re
+import signal
+import subprocess
 import sys
 from contextlib import contextmanager
+from subprocess import PIPE
 
 import pytest
 
 from semnav_scripts.page.outbox import MAX_NEWS, ClientTooSlowError, Outbox
 from semnav_scripts.page.requests import MAX_REQUEST, SceneRequest, read_request
 from tests.support.command_line import run
-from tests.support.paths import source
+from tests.support.paths import ROOT, source
 
 pytest.importorskip("starlette", reason='needs pip install "semnav-env[serve]"')
 pytest.importorskip("httpx2", reason="the test client of Starlette needs httpx2")
@@ -323,6 +326,21 @@ def test_without_its_extra_the_command_says_what_to_install(capsys, monkeypatch)
     assert code == 2
     assert 'pip install "semnav-env[serve]"' in said
     assert said.count("\n") == 1
+
+
+def test_ctrl_c_ends_the_server_although_a_robot_drives():
+    command = [sys.executable, "-m", "semnav", "serve", "--port", "0"]
+    with subprocess.Popen(command, cwd=ROOT, stdout=PIPE, stderr=PIPE, text=True) as server:
+        ready = next(line for line in server.stdout if line.startswith("open "))
+        connect = pytest.importorskip("websockets.sync.client").connect
+        with connect(re.search(r"http(\S+)", ready)[1].join(("ws", "/session"))) as socket:
+            socket.send(json.dumps(SCENE))
+            socket.send(json.dumps(SECOND_DOOR))
+            while json.loads(socket.recv())["type"] != "understood":
+                pass
+            server.send_signal(signal.SIGINT)
+            assert server.wait(timeout=30) == 130
+        assert server.stderr.read().splitlines()[-1:] == ["semnav: interrupted"]
 
 
 def test_a_port_that_is_taken_is_said_before_anything_is_compiled(capsys):

@@ -26,6 +26,9 @@ FILES = Path(__file__).with_name("web")
 TRY_LATER, TOO_SLOW = 1013, 1008
 """Codes with which a WebSocket is closed."""
 
+LOOKS, SECONDS_BETWEEN_LOOKS = 20, 0.1
+"""How often a visitor looks for a free place before it is refused, and how long in between."""
+
 PATIENCE = 5.0
 """How long a session may take to end, seconds; then it is left to itself."""
 
@@ -44,7 +47,7 @@ class Visits:
     async def visit(self, websocket: WebSocket) -> None:
         """Serve one visitor until one of both leaves."""
         await websocket.accept()
-        if len(self.now) >= self.most:
+        if not await self._has_place():
             told = f"all {self.most} places are taken; close another page, or try again later"
             await websocket.send_text(_error(told))
             await websocket.close(TRY_LATER)
@@ -62,6 +65,14 @@ class Visits:
                 await asyncio.to_thread(session.join, PATIENCE)
             finally:  # also if the server ends meanwhile
                 self.now.discard(session)
+
+    async def _has_place(self) -> bool:
+        """Whether there is a place, or one becomes free soon, as where a page is loaded again."""
+        for _ in range(LOOKS):
+            if len(self.now) < self.most:
+                return True
+            await asyncio.sleep(SECONDS_BETWEEN_LOOKS)
+        return False
 
 
 async def _talk(websocket: WebSocket, session: PageSession, outbox: Outbox) -> None:

@@ -70,6 +70,7 @@ class PageDrive:
         self.suggestion: str = self.info["command"]
         self.over, self.frames = True, list[Frame]()
         self._trail: list[Point] = []
+        self._seen: Frame | None = None
 
     def begin(self, command: Command, language: str) -> None:
         """Begin the run of a command at the start of the scene.
@@ -88,6 +89,7 @@ class PageDrive:
             self._agent.read_plan(self.env.floor_plan)
         self._agent.reset(self.info)
         self.over, self._steps, self._trail = False, 0, [self.start[:2]]
+        self._seen = None
         self.frames = [self._snapshot()]
 
     def step(self) -> None:
@@ -95,7 +97,7 @@ class PageDrive:
         action = self._agent.act(self._observation)
         self._observation, _, terminated, truncated, self.info = self.env.step(action)
         self.over = terminated or truncated
-        self._steps += 1
+        self._steps, self._seen = self._steps + 1, None
         self._trail.append(self.info["pose"][:2])
         due = self.over or self._steps % STEPS_PER_FRAME == 0
         if due and len(self.frames) < MAX_FILM_FRAMES:
@@ -110,7 +112,10 @@ class PageDrive:
         return frame_message(self.env, self._snapshot())
 
     def _snapshot(self) -> Frame:
-        return snapshot(self.env, self._trail or [self.start[:2]])
+        """The present moment; made once, although it may be filmed and shown."""
+        if self._seen is None:
+            self._seen = snapshot(self.env, self._trail or [self.start[:2]])
+        return self._seen
 
     def shut(self, door: str, shut: bool) -> None:
         """Shut a door by hand, or open it; it stays so until the next command.
