@@ -45,10 +45,8 @@ class Arguments:
     def run(self) -> int:
         """Print a row for each number of clients."""
         with serving(max(self.clients)) as (server, address):
-            print(
-                "| clients | to first motion, ms: median, most | pictures a second | server, MB |"
-            )
-            print("|---|---|---|---|")
+            print(HEADINGS)
+            print("|---|---|---|---|---|---|")
             for count in self.clients:
                 print(self._row(server, address, count), flush=True)
         return 0
