@@ -77,7 +77,7 @@ docs: $(VENV)/.docs
 # For the tests of the page in a real browser (tests/scripts/test_page_in_browser.py): Debian's.
 browser: $(VENV)/.test
 	apt-get install -y chromium
-	$(BIN)/pip install -q -c constraints.txt playwright
+	$(BIN)/pip install -q -c constraints.txt playwright axe-playwright-python
 	$(BIN)/python -m pytest -q tests/scripts/test_page_in_browser.py
 
 $(VENV)/.demo: pyproject.toml constraints.txt

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Annotated
-
-from tyro.conf import arg
 
 from semnav_features.validation import require
 
 INSTALL = 'the page needs Starlette and uvicorn: pip install "semnav-env[serve]"'
 """Said where the extra is missing."""
+
+EVERYWHERE = ("", "0.0.0.0", "::")
+"""Addresses that stand for all of a machine: no browser names them as `Host`."""
 
 SHUTDOWN_SECONDS = 3
 """How long visitors have to leave when the server ends, seconds."""
@@ -28,17 +28,20 @@ class Arguments:
 
     Attributes:
         port: of the page; 0 for any that is free.
-        host: address at which the server listens.
+        host: address of this machine by which the page is asked for; 127.0.0.1, the default, is
+            for this machine alone.
         sessions: the most pages that are open at the same time, each with a robot of its own.
     """
 
     port: int = 8321
     host: str = "127.0.0.1"
-    sessions: Annotated[int, arg(help="the most pages open at the same time")] = 4
+    sessions: int = 4
 
     def run(self) -> int:
         """Compile, say where the page is, and serve it."""
         require(0 <= self.port <= 65535, "--port", self.port, "from 0 to 65535")
+        right = "one address of this machine, by which its pages are asked for"
+        require(self.host not in EVERYWHERE, "--host", self.host, right)
         require(1 <= self.sessions <= 64, "--sessions", self.sessions, "from 1 to 64")
         try:
             import starlette

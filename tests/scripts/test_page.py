@@ -123,7 +123,8 @@ def test_a_foreign_host_is_refused(client, host):
         ('{"type": "command", "text": "stop", "sudo": true}', "has no 'sudo'"),
         ('{"type": "command", "text": "%s"}' % ("a" * 501), "at most 500"),
         ('{"type": "scene", "plan": "/etc/passwd"}', "plan is '/etc/passwd'"),
-        ('{"type": "scene", "plan": "office:huge:1"}', ""),
+        ('{"type": "scene", "plan": "office:huge:1"}', "no distribution"),
+        ('{"type": "scene", "plan": "\\ud800"}', "plan is"),
         ('{"type": "scene", "agent": "os:abort"}', "agent is 'os:abort'"),
         ('{"type": "scene", "seed": 1e400}', "seed is inf"),
         ('{"type": "scene", "seed": true}', "seed is True"),
@@ -222,6 +223,12 @@ def test_a_refusal_says_which_words_are_not_understood(client):
         assert refused["type"] == "refused"
         start, stop = refused["position"], refused["position"] + refused["length"]
         assert 0 <= start < stop <= len(refused["text"])
+
+
+def test_half_a_letter_is_no_command(client):
+    with in_the_hallway(client) as one:
+        one.send(type="command", text="turn \ud800 left")
+        assert one.next("refused", "asked", "understood")["text"]
 
 
 def test_a_command_that_makes_no_sense_here_is_refused_with_the_reason(client):
@@ -341,6 +348,13 @@ def test_ctrl_c_ends_the_server_although_a_robot_drives():
             server.send_signal(signal.SIGINT)
             assert server.wait(timeout=30) == 130
         assert server.stderr.read().splitlines()[-1:] == ["semnav: interrupted"]
+
+
+@pytest.mark.parametrize("words", [("--host", "0.0.0.0"), ("--port", -1), ("--sessions", 0)])
+def test_options_that_cannot_be_are_refused_in_one_line(capsys, words):
+    code, _, said = run(capsys, "serve", *words)
+    assert (code, said.count("\n")) == (2, 1)
+    assert f"{words[0]} is" in said
 
 
 def test_a_port_that_is_taken_is_said_before_anything_is_compiled(capsys):

@@ -256,3 +256,21 @@ CONTRASTS = """() => {
     return [`${a} on ${b}`, (x + 0.05) / (y + 0.05)];
   }));
 }"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_serious(browser, address, scheme):
+    """Deque's checker of accessibility, before and after a question."""
+    axe = pytest.importorskip("axe_playwright_python", reason="no axe: make browser")
+    page = browser.new_page(color_scheme=scheme)
+    visit(page, address)
+    for text in ("", "turn 90 degrees"):
+        if text:
+            say(page, text)
+            expect(page.locator("#heard button")).to_have_text(["left", "right"])
+        page.evaluate((Path(axe.__file__).parent / "axe.min.js").read_text("utf-8"))
+        found = page.evaluate("axe.run()")
+        assert len(found["passes"]) > 10
+        serious = [v for v in found["violations"] if v["impact"] in ("serious", "critical")]
+        assert [(each["id"], [n["html"] for n in each["nodes"]]) for each in serious] == []
+    page.close()

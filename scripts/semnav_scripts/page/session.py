@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import queue
 import threading
 import time
+from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from semnav_env.language import Command, Stop
@@ -72,14 +75,8 @@ class PageSession(threading.Thread):
     def end(self) -> None:
         """Let the thread end after what it does now; it may be called from any thread."""
         self._ended.set()
-        self.ask_nothing()
-
-    def ask_nothing(self) -> None:
-        """Wake the thread if it waits; a full queue needs no waking."""
-        try:
+        with contextlib.suppress(queue.Full):  # then the thread does not wait
             self._waiting.put_nowait(None)
-        except queue.Full:
-            return
 
     def run(self) -> None:
         """Serve the visitor until `end`."""
@@ -91,7 +88,7 @@ class PageSession(threading.Thread):
                     self._attempt(self._step)
                     continue
                 if request is not None:
-                    self._attempt(lambda asked=request: self._do(asked))
+                    self._attempt(partial(self._do, request))
         except ClientTooSlowError:
             self._ended.set()
 
@@ -101,7 +98,7 @@ class PageSession(threading.Thread):
             return None
         return max(0.0, self._due - time.monotonic())
 
-    def _attempt(self, work: Any) -> None:
+    def _attempt(self, work: Callable[[], None]) -> None:
         """Do something for the visitor; what goes wrong is told, and the session goes on."""
         try:
             work()
@@ -216,4 +213,5 @@ class PageSession(threading.Thread):
 
 
 def _json(message: dict[str, Any]) -> str:
-    return json.dumps(message, separators=(",", ":"), ensure_ascii=False)
+    """In ASCII: a text may hold halves of letters, which cannot be sent as they are."""
+    return json.dumps(message, separators=(",", ":"))

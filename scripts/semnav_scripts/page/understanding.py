@@ -59,7 +59,6 @@ class Asked:
             "text": self.text,
             "question": self.question.text,
             "choices": names if self.question.names_both else ["yes", "no"],
-            "shown": names if self.question.names_both else [],
         }
 
 
