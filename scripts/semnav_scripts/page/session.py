@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
 import queue
 import threading
@@ -117,6 +118,7 @@ class PageSession(threading.Thread):
                 self._drive, self._asked = PageDrive(request), None
                 self._tell(self._drive.scene_message())
                 self._show()
+                gc.collect()  # the world before is a cycle of large arrays
             case CommandRequest(text=text, language=language):
                 rooms = self._scene().env.floor_plan.room_names
                 self._heed(understand(text, language, rooms))
