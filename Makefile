@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test coverage packages versions lowest newest fallbacks lint types slow soak nightly docs policies clean
+.PHONY: demo test coverage packages versions lowest newest fallbacks lint types slow soak nightly docs policies browser clean
 
 demo: $(VENV)/.demo
 	$(BIN)/semnav demo "go through the second door on the right" --map heidelberg_hallway \
@@ -74,6 +74,12 @@ types: $(VENV)/.test
 docs: $(VENV)/.docs
 	$(BIN)/sphinx-build -W -b html docs docs/_build/html
 
+# For the tests of the page in a real browser (tests/scripts/test_page_in_browser.py): Debian's.
+browser: $(VENV)/.test
+	apt-get install -y chromium
+	$(BIN)/pip install -q -c constraints.txt playwright axe-playwright-python
+	$(BIN)/python -m pytest -q tests/scripts/test_page_in_browser.py
+
 $(VENV)/.demo: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/pip install -q -c constraints.txt -e ".[render]"
@@ -86,7 +92,7 @@ $(VENV)/.docs: pyproject.toml constraints.txt
 
 $(VENV)/.test: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install -q -c constraints.txt -e ".[render,rl,ros,dev]"
+	$(BIN)/pip install -q -c constraints.txt -e ".[render,rl,ros,serve,dev]"
 	touch $@
 
 # On one core some 8 minutes of processor time for a seed of `drive`, 12 for one of `listener`: 100 in all.

@@ -19,6 +19,7 @@ STUDIES = CommandTable(
         "manner": ("studies.manner.command", "success at each pace and along each wall"),
         "matching": ("studies.matching.command", "how exactly scans are matched"),
         "offices": ("studies.offices", "check generated offices, and time them"),
+        "page": ("studies.page.command", "how soon the page of `semnav serve` moves its robot"),
         "places": ("studies.places.command", "corridors told from other places"),
         "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
         "ranker": ("studies.translating.ranker_command", "learn when to act, to ask, to refuse"),

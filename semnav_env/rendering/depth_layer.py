@@ -34,6 +34,8 @@ def cloud_on_the_map(cloud: PointCloud, pose: Pose) -> FloatArray:
 
 def jambs_on_the_map(cloud: PointCloud, tracker: BeliefTracker, pose: Pose) -> FloatArray:
     """The jambs that a robot finds where it remembers doors, world frame, shape (n, 2)."""
+    if not len(cloud.points_robot):
+        return np.zeros((0, 2))
     belief = tracker.belief
     here = tracker.scene().placed(relative(belief.pose, ORIGIN))
     near = [door for door in here.doors if math.hypot(*door.midpoint) <= MAX_DOOR_DISTANCE]

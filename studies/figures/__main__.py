@@ -22,6 +22,7 @@ FIGURES = [
     "mapping",
     "observation_table",
     "offices",
+    "page",
     "real_floor",
     "routes",
     "rules",

@@ -67,6 +67,7 @@ ABOUT = {
     "semnav_agents/searching": "searching a house: poses to look from, and people to approach",
     "semnav_env/language/translating": "the learned reader: values out, translated, ranked",
     "semnav_scripts": "the `semnav` command",
+    "semnav_scripts/page": "the page of `semnav serve`: requests, sessions, server, web files",
 }
 
 TEMPLATE = """# Architecture

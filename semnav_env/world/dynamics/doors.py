@@ -11,6 +11,7 @@ from semnav_env.world.dynamics.nearby import nearest_on_body, nearest_on_segment
 from semnav_env.world.dynamics.settings import Dynamics
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
+from semnav_features.validation import require
 
 
 class SwingingDoors:
@@ -41,10 +42,28 @@ class SwingingDoors:
         self._rng = rng
         chosen = rng.random(len(self.leaves)) < self._dynamics.changing_doors
         self._closing = chosen.copy()
+        self._held = np.zeros(len(self.leaves), dtype=bool)
         self._wait = np.full(len(self.leaves), np.inf)
         self._wait[chosen] = rng.uniform(0.0, self._dynamics.swinging.open_for[1], chosen.sum())
         for i, leaf in enumerate(self.leaves):
             self._turn(i, leaf.swing)
+
+    def hold(self, door: str, shut: bool) -> None:
+        """Shut a door by hand, or open it; it stays so until the next episode.
+
+        Its leaf swings as the others do. A copy of the world that is pickled forgets it.
+
+        Args:
+            door: name of a door that is among `leaves`.
+            shut: whether it is to be shut.
+
+        Raises:
+            ValueError: none of the leaves is that door's.
+        """
+        names = [leaf.door for leaf in self.leaves]
+        require(door in names, "door", door, f"one of {', '.join(names)}")
+        i = names.index(door)
+        self._closing[i], self._held[i], self._wait[i] = shut, True, 0.0
 
     @property
     def closed(self) -> tuple[str, ...]:
@@ -70,6 +89,8 @@ class SwingingDoors:
             if self._wait[i] > 0.0:
                 continue
             goal = 0.0 if self._closing[i] else leaf.swing
+            if self.angles[i] == goal and self._held[i]:
+                continue
             if self.angles[i] == goal:
                 self._closing[i] = not self._closing[i]
                 times = swinging.open_for if goal else swinging.closed_for

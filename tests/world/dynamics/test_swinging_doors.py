@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +22,7 @@ from tests.support.small_plans import plan_of
 
 plans = pytest.mark.parametrize("name", bundled_names())
 ALWAYS = Dynamics(changing_doors=1.0)
+BY_HAND = Dynamics(changing_doors=sys.float_info.min)
 
 
 @plans
@@ -106,20 +108,49 @@ def test_a_leaf_waits_for_a_robot_in_the_doorway() -> None:
 
 def test_only_a_closed_leaf_stops_the_robot() -> None:
     for closed in (True, False):
-        world = world_of("office_cross", "spot", ALWAYS)
+        world = world_of("office_cross", "spot", BY_HAND)
         world.reset((6.75, 8.9, math.pi / 2), np.random.default_rng(0))
         assert world.moving is not None
-        doors = world.moving.doors
-        index = [leaf.door for leaf in doors.leaves].index("west_north_2")
-        doors._wait[:] = math.inf
-        if closed:
-            doors._closing[index], doors._wait[index] = True, 0.0
-            for _ in range(60):
-                world.step((0.0, 0.0, 0.0))
-                doors._wait[index] = math.inf if doors.angles[index] == 0.0 else 0.0
+        world.moving.doors.hold("west_north_2", closed)
+        for _ in range(60):
+            world.step((0.0, 0.0, 0.0))
         for _ in range(60):
             world.step((0.8, 0.0, 0.0))
         assert (world.pose[1] < 10.2) == closed
+
+
+def test_a_door_held_by_hand_stays_as_it_is_until_the_next_episode() -> None:
+    world = world_of("office_cross", "wheelchair", ALWAYS)
+    world.reset((15.0, 5.5, 1.5), np.random.default_rng(0))
+    assert world.moving is not None
+    doors = world.moving.doors
+    for shut in (True, False):
+        doors.hold("west_north_2", shut)
+        for _ in range(15 * 5):
+            world.step((0.0, 0.0, 0.0))
+        for _ in range(15 * 40):
+            world.step((0.0, 0.0, 0.0))
+            assert ("west_north_2" in doors.closed) == shut
+    doors.hold("west_north_2", True)
+    world.reset((15.0, 5.5, 1.5), np.random.default_rng(0))
+    assert doors.closed == ()
+
+
+def test_only_a_door_with_a_leaf_can_be_held() -> None:
+    world = world_of("office_cross", "wheelchair", BY_HAND)
+    assert world.moving is not None
+    with pytest.raises(ValueError, match=r"'nowhere'; it must be one of .*west_north_2"):
+        world.moving.doors.hold("nowhere", True)
+
+
+def test_leaves_for_a_hand_alone_never_move_by_themselves() -> None:
+    world = world_of("office_cross", "wheelchair", BY_HAND)
+    world.reset((15.0, 5.5, 1.5), np.random.default_rng(0))
+    assert world.moving is not None
+    angles = world.moving.doors.angles.copy()
+    for _ in range(15 * 60):
+        world.step((0.0, 0.0, 0.0))
+    assert np.array_equal(world.moving.doors.angles, angles)
 
 
 def test_with_no_changing_doors_leaves_are_part_of_the_plan() -> None:

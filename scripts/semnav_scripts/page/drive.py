@@ -1,0 +1,175 @@
+"""One robot in one scene of the page: where it stands, and the run of its last command."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+from shapely import Polygon
+
+from semnav_agents.base import PlanReader
+from semnav_agents.registry import make_agent
+from semnav_env.env import SemNavEnv
+from semnav_env.language import Command
+from semnav_env.rendering.film import STEPS_PER_FRAME
+from semnav_env.rendering.frame import Frame
+from semnav_env.rendering.snapshot import snapshot
+from semnav_env.world.dynamics import Dynamics
+from semnav_env.world.maps import FloorPlan, load_floor_plan
+from semnav_env.world.maps.floor_plan import Material, Surface
+from semnav_features.frames import Point, Pose
+from semnav_features.validation import require
+from semnav_scripts.page.frame_message import frame_message
+from semnav_scripts.page.plan_message import body_message, plan_message
+from semnav_scripts.page.requests import SceneRequest
+
+BOX_SIDE = 0.5
+"""Length of a side of a box, metres."""
+
+BY_HAND_ONLY = sys.float_info.min
+"""Probability of a door to change by itself: above 0, so that leaves hang, and never drawn."""
+
+MAX_FILM_FRAMES = 800
+"""The most frames of a film that are kept, each of `STEPS_PER_FRAME` steps: 160 s."""
+
+
+class PageDrive:
+    """A robot, its world and its agent, which carry out one command after the other.
+
+    Args:
+        scene: what to build.
+
+    Raises:
+        ValueError: there is no such floor plan, or robot or people find no room in it.
+
+    Attributes:
+        env: the environment.
+        start: pose at which every command begins, world frame.
+        suggestion: a command that can be carried out from there.
+        info: the last `info` of the environment.
+        over: whether the run has ended, or none has begun.
+        frames: of the film of the run.
+    """
+
+    def __init__(self, scene: SceneRequest) -> None:
+        self.scene = scene
+        self._agent = make_agent(scene.agent)
+        self.env = SemNavEnv(
+            scene.robot,
+            _with_boxes(load_floor_plan(scene.plan), scene.boxes),
+            observation=self._agent.observation,
+            dynamics=Dynamics(
+                pedestrians=scene.people, changing_doors=BY_HAND_ONLY if scene.leaves else 0.0
+            ),
+        )
+        options = None if scene.pose is None else {"pose": scene.pose}
+        _, self.info = self.env.reset(seed=scene.seed, options=options)
+        self.start: Pose = self.info["pose"]
+        self.suggestion: str = self.info["command"]
+        self.over, self.frames = True, list[Frame]()
+        self._trail: list[Point] = []
+        self._seen: Frame | None = None
+
+    def begin(self, command: Command, language: str) -> None:
+        """Begin the run of a command at the start of the scene.
+
+        Args:
+            command: to carry out.
+            language: of the speaker, "en" or "de".
+
+        Raises:
+            ValueError: it cannot be carried out from there (`GroundingError`).
+        """
+        self.over = True
+        told = {"command": command, "language": language, "pose": self.start}
+        self._observation, self.info = self.env.reset(seed=self.scene.seed, options=told)
+        if isinstance(self._agent, PlanReader):
+            self._agent.read_plan(self.env.floor_plan)
+        self._agent.reset(self.info)
+        self.over, self._steps, self._trail = False, 0, [self.start[:2]]
+        self._seen = None
+        self.frames = [self._snapshot()]
+
+    def step(self) -> None:
+        """Let the agent drive for one control period."""
+        action = self._agent.act(self._observation)
+        self._observation, _, terminated, truncated, self.info = self.env.step(action)
+        self.over = terminated or truncated
+        self._steps, self._seen = self._steps + 1, None
+        self._trail.append(self.info["pose"][:2])
+        due = self.over or self._steps % STEPS_PER_FRAME == 0
+        if due and len(self.frames) < MAX_FILM_FRAMES:
+            self.frames.append(self._snapshot())
+
+    def stop(self) -> None:
+        """End the run where the robot is."""
+        self.over = True
+
+    def frame(self) -> dict[str, Any]:
+        """The present moment as a message."""
+        return frame_message(self.env, self._snapshot())
+
+    def _snapshot(self) -> Frame:
+        """The present moment; made once, although it may be filmed and shown."""
+        if self._seen is None:
+            self._seen = snapshot(self.env, self._trail or [self.start[:2]])
+        return self._seen
+
+    def shut(self, door: str, shut: bool) -> None:
+        """Shut a door by hand, or open it; it stays so until the next command.
+
+        Raises:
+            ValueError: it has no leaf that can swing.
+        """
+        moving = self.env.world.moving
+        if door not in self.swinging or moving is None:
+            known = ", ".join(self.swinging) or "none"
+            raise ValueError(f"door is {door!r:.80}; doors with a leaf that can swing: {known}")
+        moving.doors.hold(door, shut)
+
+    @property
+    def swinging(self) -> tuple[str, ...]:
+        """Names of the doors that can be shut."""
+        moving = self.env.world.moving
+        return () if moving is None else tuple(leaf.door for leaf in moving.doors.leaves)
+
+    @property
+    def control_hz(self) -> float:
+        """Steps in a simulated second."""
+        return self.env.setup.control_hz
+
+    def scene_message(self) -> dict[str, Any]:
+        """The scene as the page draws it, and what can be asked to bring it back."""
+        asked = {**vars(self.scene), "boxes": [list(box) for box in self.scene.boxes]}
+        return {
+            "type": "scene",
+            "scene": asked,
+            "plan": plan_message(self.env.world.still, self.swinging),
+            "body": body_message(self.env.robot),
+            "start": [round(value, 3) for value in self.start],
+            "suggestion": self.suggestion,
+        }
+
+
+def _with_boxes(plan: FloorPlan, places: tuple[Point, ...]) -> FloorPlan:
+    """The plan with a box at each place; itself without places.
+
+    Raises:
+        ValueError: a box would not lie inside the plan.
+    """
+    if not places:
+        return plan
+    outlines = [tuple(_square(*place)) for place in places]
+    for place, outline in zip(places, outlines, strict=True):
+        require(plan.boundary.covers(Polygon(outline)), "box", place, "inside the floor plan")
+    boxes = (Surface(outline, Material.FURNITURE) for outline in outlines)
+    return replace(plan, surfaces=(*plan.surfaces, *boxes))
+
+
+def _square(x: float, y: float) -> Iterator[Point]:
+    """The closed outline of a box."""
+    half = BOX_SIDE / 2
+    for dx, dy in ((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)):
+        yield x + dx * half, y + dy * half

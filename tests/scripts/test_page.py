@@ -1,0 +1,366 @@
+"""The page of `semnav serve`, asked as a browser asks it."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import re
+import signal
+import subprocess
+import sys
+from contextlib import contextmanager
+from subprocess import PIPE
+
+import pytest
+
+from semnav_scripts.page.outbox import MAX_NEWS, ClientTooSlowError, Outbox
+from semnav_scripts.page.requests import MAX_REQUEST, SceneRequest, read_request
+from tests.support.command_line import run
+from tests.support.paths import ROOT, source
+
+pytest.importorskip("starlette", reason='needs pip install "semnav-env[serve]"')
+pytest.importorskip("httpx2", reason="the test client of Starlette needs httpx2")
+TestClient = pytest.importorskip("starlette.testclient").TestClient
+WebSocketDisconnect = pytest.importorskip("starlette.websockets").WebSocketDisconnect
+
+HOME = "http://127.0.0.1:8321"
+SESSION = "ws://127.0.0.1:8321/session"
+SCENE = {"type": "scene", "pose": [-2.5, -0.6, 0.25]}
+SECOND_DOOR = {"type": "command", "text": "go through the second door on the right"}
+
+
+@pytest.fixture
+def client():
+    from semnav_scripts.page.app import page_app
+
+    with TestClient(page_app(sessions=2), base_url=HOME) as opened:
+        yield opened
+
+
+class Visitor:
+    """A visitor of the page, whose messages come until one of some type does."""
+
+    def __init__(self, socket):
+        self.socket = socket
+
+    def send(self, **message):
+        self.socket.send_text(json.dumps(message))
+
+    def next(self, *kinds):
+        """The next message of one of these types; other good news before it are skipped."""
+        while True:
+            message = json.loads(self.socket.receive_text())
+            if message["type"] in kinds:
+                return message
+            assert message["type"] not in ("error", "refused"), message
+
+
+@contextmanager
+def visitor(client, **headers):
+    with client.websocket_connect(
+        f"{HOME.replace('http', 'ws')}/session", headers=headers
+    ) as socket:
+        yield Visitor(socket)
+
+
+@contextmanager
+def in_the_hallway(client):
+    """A visitor whose robot stands in the hallway and hurries."""
+    with visitor(client) as one:
+        one.send(**SCENE)
+        one.next("scene")
+        one.send(type="speed", factor=16)
+        yield one
+
+
+def test_the_page_is_served_with_a_policy_that_loads_nothing_from_elsewhere(client):
+    answer = client.get("/")
+    assert answer.status_code == 200
+    assert "default-src 'self'" in answer.headers["content-security-policy"]
+
+
+def test_the_page_names_no_address_of_elsewhere():
+    files = [path for path in source("semnav_scripts/page/web").iterdir()]
+    assert {path.suffix for path in files} == {".html", ".css", ".js", ".svg"}
+    for path in files:
+        text = path.read_text("utf-8").replace('xmlns="http://www.w3.org/2000/svg"', "")
+        assert not re.search(r"https?://", text), path
+
+
+@pytest.mark.parametrize("origin", ["https://evil.example", "http://127.0.0.1:9", "null"])
+def test_a_foreign_origin_is_refused(client, origin):
+    assert client.get("/", headers={"origin": origin}).status_code == 403
+    with pytest.raises(WebSocketDisconnect), visitor(client, origin=origin):
+        pass
+
+
+def test_the_own_origin_is_let_in(client):
+    with visitor(client, origin=HOME) as one:
+        assert one.next("choices")["plans"]
+
+
+@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1.evil.example:8321", "[::1", ""])
+def test_a_foreign_host_is_refused(client, host):
+    assert client.get("/", headers={"host": host}).status_code == 403
+    with pytest.raises(WebSocketDisconnect), visitor(client, host=host):
+        pass
+
+
+@pytest.mark.parametrize(
+    ("message", "why"),
+    [
+        ("", "no JSON"),
+        ("{", "no JSON"),
+        ("[" * 4000, "no JSON"),
+        ("[]", "JSON object"),
+        ("x" * (MAX_REQUEST + 1), "characters"),
+        ('{"text": "stop"}', "type is None"),
+        ('{"type": ["scene"]}', "type is"),
+        ('{"type": "shell"}', "must be one of scene"),
+        ('{"type": "command"}', "lacks something"),
+        ('{"type": "command", "text": "  "}', "a command"),
+        ('{"type": "command", "text": 7}', "must be text"),
+        ('{"type": "command", "text": "stop", "sudo": true}', "has no 'sudo'"),
+        ('{"type": "command", "text": "%s"}' % ("a" * 501), "at most 500"),
+        ('{"type": "scene", "plan": "/etc/passwd"}', "plan is '/etc/passwd'"),
+        ('{"type": "scene", "plan": "office:huge:1"}', "no distribution"),
+        ('{"type": "scene", "plan": "\\ud800"}', "plan is"),
+        ('{"type": "scene", "agent": "os:abort"}', "agent is 'os:abort'"),
+        ('{"type": "scene", "seed": 1e400}', "seed is inf"),
+        ('{"type": "scene", "seed": true}', "seed is True"),
+        ('{"type": "scene", "pose": [1, 2]}', "a tuple of 3"),
+        ('{"type": "scene", "pose": [0, 0, NaN]}', "pose[2] is nan"),
+        ('{"type": "scene", "people": -1}', "people is -1"),
+        ('{"type": "scene", "boxes": [[0, 0, 0]]}', "boxes[0]"),
+        ('{"type": "scene", "boxes": [[900, 900]]}', "inside the floor plan"),
+        ('{"type": "speed", "factor": 0}', "factor is 0"),
+        ('{"type": "door", "door": "1", "shut": "yes"}', "shut is 'yes'"),
+        ('{"type": "door", "door": "nowhere", "shut": true}', "door is 'nowhere'"),
+        ('{"type": "playback", "action": "step"}', "nothing drives"),
+        ('{"type": "answer", "text": "left"}', "nothing was asked"),
+        ('{"type": "film"}', "no film yet"),
+    ],
+)
+def test_what_is_wrong_with_a_message_is_answered_and_the_session_goes_on(client, message, why):
+    with visitor(client) as one:
+        one.send(**SCENE)
+        one.next("scene")
+        one.socket.send_text(message)
+        told = one.next("error")["text"]
+        assert why in told
+        assert "\n" not in told
+        assert len(told) <= 500
+        assert "should not have happened" not in told
+        one.send(**SCENE)
+        assert one.next("scene", "error")["type"] == "scene"
+
+
+def test_binary_messages_are_answered_with_an_error(client):
+    with visitor(client) as one:
+        one.socket.send_bytes(b"\0\1")
+        assert "binary" in one.next("error")["text"]
+
+
+def test_a_command_without_a_scene_is_answered_with_an_error(client):
+    with visitor(client) as one:
+        one.send(**SECOND_DOOR)
+        assert "choose a scene first" in one.next("error")["text"]
+
+
+def test_one_visitor_too_many_is_refused_until_another_leaves(client):
+    with in_the_hallway(client) as first:
+        with visitor(client), visitor(client) as third:
+            assert "all 2 places are taken" in third.next("error", "choices")["text"]
+            with pytest.raises(WebSocketDisconnect):
+                third.socket.receive_text()
+            first.send(**SECOND_DOOR)
+            assert first.next("ended")["outcome"] == "done"
+        with visitor(client) as another:
+            assert another.next("error", "choices")["type"] == "choices"
+    assert client.app.state.visits.now == set()
+
+
+def test_a_command_is_understood_driven_and_judged(client):
+    with in_the_hallway(client) as one:
+        one.send(**SECOND_DOOR)
+        assert one.next("understood")["clauses"] == ["go through the second door on the right"]
+        frame = one.next("frame")
+        assert len(frame["hits"]) > 2 * 500
+        assert frame["verdicts"] == ["active"]
+        assert frame["reasons"]
+        ended = one.next("ended")
+    assert (ended["outcome"], ended["verdicts"]) == ("done", ["done"])
+
+
+def test_german_is_answered_in_german(client):
+    with in_the_hallway(client) as one:
+        one.send(type="command", text="fahr durch die zweite Tür rechts")
+        assert one.next("understood")["clauses"] == ["fahr durch die zweite Tür rechts"]
+
+
+def test_an_ambiguous_command_is_asked_about_and_an_answer_settles_it(client):
+    with in_the_hallway(client) as one:
+        one.send(type="command", text="turn 90 degrees")
+        asked = one.next("asked")
+        assert asked["question"] == "Left, or right?"
+        assert asked["choices"] == ["left", "right"]
+        one.send(type="answer", text="left")
+        assert one.next("understood")["clauses"] == ["turn left by 90 degrees"]
+
+
+def test_an_answer_that_settles_nothing_is_asked_again(client):
+    with in_the_hallway(client) as one:
+        one.send(type="command", text="turn 90 degrees")
+        one.next("asked")
+        one.send(type="answer", text="blue")
+        assert one.next("asked", "refused")["question"] == "Left, or right?"
+
+
+def test_a_refusal_says_which_words_are_not_understood(client):
+    with in_the_hallway(client) as one:
+        one.send(type="command", text="sing the song of the sea", language="en")
+        refused = one.next("refused", "asked", "understood")
+        assert refused["type"] == "refused"
+        start, stop = refused["position"], refused["position"] + refused["length"]
+        assert 0 <= start < stop <= len(refused["text"])
+
+
+def test_half_a_letter_is_no_command(client):
+    with in_the_hallway(client) as one:
+        one.send(type="command", text="turn \ud800 left")
+        assert one.next("refused", "asked", "understood")["text"]
+
+
+def test_a_command_that_makes_no_sense_here_is_refused_with_the_reason(client):
+    with in_the_hallway(client) as one:
+        one.send(type="command", text="go through the ninth door on the right")
+        assert "door" in one.next("refused", "understood")["why"]
+
+
+def test_a_call_to_stop_ends_the_run(client):
+    with in_the_hallway(client) as one:
+        one.send(type="speed", factor=0.5)
+        one.send(**SECOND_DOOR)
+        one.next("understood")
+        one.send(type="command", text="Halt!")
+        assert one.next("ended")["outcome"] == "stopped by you"
+
+
+def test_a_run_is_paused_stepped_and_stopped(client):
+    with in_the_hallway(client) as one:
+        one.send(type="speed", factor=0.1)
+        one.send(**SECOND_DOOR)
+        one.next("understood")
+        one.send(type="playback", action="step")
+        one.send(type="playback", action="step")
+        while (seconds := one.next("frame")["seconds"]) < 0.13:  # two steps
+            pass
+        assert seconds < 0.25
+        one.send(type="playback", action="stop")
+        assert one.next("ended")["verdicts"] == ["active"]
+
+
+def test_a_door_that_is_shut_by_hand_stops_the_robot(client):
+    with in_the_hallway(client) as one:
+        one.send(**SECOND_DOOR)
+        one.next("understood")
+        one.send(type="door", door="south_2", shut=True)
+        ended = one.next("ended", "error")
+    assert ended["type"] == "ended"
+    assert ended["outcome"] == "failed"
+
+
+def test_a_box_is_part_of_the_scene(client):
+    with visitor(client) as one:
+        one.send(**SCENE, boxes=[[0.0, 0.3]])
+        scene = one.next("scene")
+    boxes = [s for s in scene["plan"]["surfaces"] if s["material"] == "furniture"]
+    assert [0.25, 0.55] in boxes[-1]["points"]
+    assert scene["scene"]["boxes"] == [[0.0, 0.3]]
+
+
+def test_the_film_of_a_run_is_a_gif(client):
+    pytest.importorskip("pygame")
+    with in_the_hallway(client) as one:
+        one.send(**SECOND_DOOR)
+        one.next("ended")
+        one.send(type="film")
+        while "bytes" not in (message := one.socket.receive()) or message["bytes"] is None:
+            pass
+    assert message["bytes"].startswith(b"GIF89a")
+
+
+def test_the_same_scene_and_command_give_the_same_run(client):
+    ends = []
+    for _ in range(2):
+        with visitor(client) as one:
+            one.send(type="scene", plan="office_cross", robot="spot", people=3, seed=5)
+            one.send(type="command", text=one.next("scene")["suggestion"])
+            one.send(type="speed", factor=16)
+            ends.append(one.next("ended"))
+    assert ends[0] == ends[1]
+
+
+def test_a_slow_visitor_misses_pictures_and_costs_no_memory():
+    async def taken():
+        outbox = Outbox(asyncio.get_running_loop())
+        for number in range(1000):
+            outbox.put_picture(str(number))
+        outbox.put_news("news")
+        return [await outbox.next(), await outbox.next()], outbox.dropped
+
+    assert asyncio.run(taken()) == (["news", "999"], 999)
+
+
+def test_a_visitor_who_takes_nothing_is_given_up():
+    async def full():
+        outbox = Outbox(asyncio.get_running_loop())
+        for _ in range(MAX_NEWS):
+            outbox.put_news("news")
+        with pytest.raises(ClientTooSlowError):
+            outbox.put_news("one too many")
+
+    asyncio.run(full())
+
+
+def test_a_request_that_lacks_nothing_is_what_it_says():
+    assert read_request('{"type": "scene"}') == SceneRequest()
+
+
+def test_without_its_extra_the_command_says_what_to_install(capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "uvicorn", None)
+    code, _, said = run(capsys, "serve")
+    assert code == 2
+    assert 'pip install "semnav-env[serve]"' in said
+    assert said.count("\n") == 1
+
+
+def test_ctrl_c_ends_the_server_although_a_robot_drives():
+    command = [sys.executable, "-m", "semnav", "serve", "--port", "0"]
+    with subprocess.Popen(command, cwd=ROOT, stdout=PIPE, stderr=PIPE, text=True) as server:
+        ready = next(line for line in server.stdout if line.startswith("open "))
+        connect = pytest.importorskip("websockets.sync.client").connect
+        with connect(re.search(r"http(\S+)", ready)[1].join(("ws", "/session"))) as socket:
+            socket.send(json.dumps(SCENE))
+            socket.send(json.dumps(SECOND_DOOR))
+            while json.loads(socket.recv())["type"] != "understood":
+                pass
+            server.send_signal(signal.SIGINT)
+            assert server.wait(timeout=30) == 130
+        assert server.stderr.read().splitlines()[-1:] == ["semnav: interrupted"]
+
+
+@pytest.mark.parametrize("words", [("--host", "0.0.0.0"), ("--port", -1), ("--sessions", 0)])
+def test_options_that_cannot_be_are_refused_in_one_line(capsys, words):
+    code, _, said = run(capsys, "serve", *words)
+    assert (code, said.count("\n")) == (2, 1)
+    assert f"{words[0]} is" in said
+
+
+def test_a_port_that_is_taken_is_said_before_anything_is_compiled(capsys):
+    from semnav_scripts.page.listening import listening
+
+    with listening("127.0.0.1", 0) as taken:
+        code, _, said = run(capsys, "serve", "--port", taken.getsockname()[1])
+    assert code == 2
+    assert "try --port 0" in said
