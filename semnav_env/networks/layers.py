@@ -16,8 +16,8 @@ Array = NDArray[np.float32]
 Shapes = dict[str, tuple[int, ...]]
 
 MOST_PRODUCTS = 1 << 18
-"""The most products of a matrix multiplication that OpenBLAS does in the calling thread. Larger ones
-it parts among threads, which for matrices of this size wait longer than they work on busy cores."""
+"""The most products of a matrix multiplication that OpenBLAS does in the calling thread. It parts
+larger ones among threads, which for such small matrices wait longer for a busy core than work."""
 
 EPSILON = 1e-5
 """Keeps the normalisation of a layer finite."""
