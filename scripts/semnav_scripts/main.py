@@ -17,6 +17,8 @@ SEMNAV = CommandTable(
             "demo": "let a robot carry out a command",
             "serve": "open a page in the browser to try it in",
             "follow": "follow a command on a recorded log, as a robot would",
+            "node": "carry out spoken commands on a robot, by ROS 1, ROS 2 or DDS",
+            "simulate": "be a simulated robot for such a node",
             "ground": "say what a command refers to in a floor plan",
             "approach": "plan the pose before a door from which a robot can pass it",
             "describe": "say the command that leads to a door or a room",

@@ -1,0 +1,136 @@
+"""Talks to ROS 2 without ROS: Cyclone DDS, with the types that ROS 2 puts on the wire."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import field
+from functools import cache
+from types import new_class
+from typing import Any
+
+from cyclonedds.core import Listener, Policy, Qos
+from cyclonedds.domain import DomainParticipant
+from cyclonedds.idl import IdlStruct, types
+from cyclonedds.pub import DataWriter
+from cyclonedds.sub import DataReader
+from cyclonedds.topic import Topic as DdsTopic
+from cyclonedds.util import duration
+from rosbags.typesys import Stores, get_typestore
+
+from semnav_ros.fields import Values, written
+from semnav_ros.topics import Topic
+from semnav_ros.wire import Take, Waiting
+
+
+class DdsWire:
+    """A participant in the DDS domain of ROS_DOMAIN_ID (0 if it is not set)."""
+
+    def __init__(self) -> None:
+        from os import environ
+
+        self._participant = DomainParticipant(int(environ.get("ROS_DOMAIN_ID", "0")))
+        self._waiting = Waiting()
+        self._readers: list[DataReader[Any]] = []
+        self._writers: dict[str, DataWriter[Any]] = {}
+
+    def hear(self, topic: Topic, take: Take) -> None:
+        """Give each message of a topic to `take`, in `wait`."""
+        heard = _Heard(self._waiting.add(topic, take))
+        place, qos = self._place(topic), qos_of(topic)
+        self._readers.append(DataReader(self._participant, place, qos, heard))
+
+    def announce(self, topic: Topic) -> None:
+        """Say that messages of a topic will come."""
+        writer = DataWriter(self._participant, self._place(topic), qos_of(topic))
+        self._writers[topic.name] = writer
+
+    def say(self, topic: Topic, values: Values) -> None:
+        """Publish a message of a topic that was announced."""
+        message = written(topic.kind, values, lambda kind: dds_type(kind)())
+        self._writers[topic.name].write(message)
+
+    def listeners(self, topic: Topic) -> int:
+        """How many hear a topic that was announced, itself included."""
+        return len(self._writers[topic.name].get_matched_subscriptions())
+
+    def wait(self, seconds: float) -> None:
+        """Wait for messages for at most this time, and give what came to who takes it."""
+        self._waiting.give(seconds)
+
+    def close(self) -> None:
+        """Leave the domain."""
+        self._readers.clear()
+        self._writers.clear()
+        del self._participant
+
+    def _place(self, topic: Topic) -> DdsTopic[Any]:
+        return DdsTopic(self._participant, f"rt/{topic.name}", dds_type(topic.kind))
+
+
+class _Heard(Listener):
+    """Puts the messages of a reader in a queue, in a thread of Cyclone's."""
+
+    def __init__(self, put: Any) -> None:
+        super().__init__()
+        self._put = put
+
+    def on_data_available(self, reader: DataReader[Any]) -> None:
+        """Take what came."""
+        for message in reader.take(N=100):
+            if message.sample_info.valid_data:
+                self._put(message)
+
+
+def qos_of(topic: Topic) -> Qos:
+    """The quality of service of a topic."""
+    return Qos(
+        Policy.Reliability.Reliable(duration(milliseconds=100))
+        if topic.reliable
+        else Policy.Reliability.BestEffort,
+        Policy.Durability.TransientLocal if topic.latched else Policy.Durability.Volatile,
+        Policy.History.KeepLast(topic.depth),
+    )
+
+
+@cache
+def dds_type(kind: str) -> type[Any]:
+    """The class of a message of ROS 2, such as "sensor_msgs/LaserScan", as it is on the wire.
+
+    It is made from the definition that ROS 2 ships, which rosbags holds.
+    """
+    package, name = kind.split("/")
+    definitions = get_typestore(Stores.ROS2_HUMBLE).fielddefs[f"{package}/msg/{name}"][1]
+    made = [_member(each, description) for each, description in definitions]
+
+    def body(space: dict[str, Any]) -> None:
+        space["__annotations__"] = {each: kind for each, kind, _ in made}
+        space.update({each: field(default_factory=default) for each, _, default in made})
+
+    typename = f"{package}::msg::dds_::{name}_"
+    base = new_class(name, (IdlStruct,), {"typename": typename}, body)
+    return dataclasses.dataclass(base)
+
+
+def _member(name: str, description: Any) -> tuple[str, Any, Any]:
+    """Name, type for Cyclone, and maker of the default of a field."""
+    kind, default = _type_of(description)
+    return name, kind, default
+
+
+def _type_of(description: Any) -> tuple[Any, Any]:
+    node, detail = description
+    if node.name == "BASE":
+        plain, _ = detail
+        if plain == "string":
+            return str, str
+        if plain == "bool":
+            return bool, bool
+        return getattr(types, plain), float if plain.startswith("float") else int
+    if node.name == "NAME":
+        made = dds_type(detail.replace("/msg/", "/"))
+        return made, made
+    inner, count = detail
+    item, default = _type_of(inner)
+    if node.name == "ARRAY":
+        return types.array[item, count], lambda: [default() for _ in range(count)]
+    return types.sequence[item], list

@@ -1,0 +1,247 @@
+"""The core of a robot's node: messages in, velocities out; it knows no middleware."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from semnav_agents.registry import AgentSource
+from semnav_env.language import Command
+from semnav_env.mind.belief import Belief
+from semnav_env.robots import RobotSpec, robot_spec
+from semnav_features.frames import ORIGIN, FloatArray, Pose, Twist, compose, relative
+from semnav_features.lidar_spec import lidar_spec
+from semnav_ros.command_drive import CommandDrive
+from semnav_ros.conversation import STOP, Conversation
+from semnav_ros.laser_frame import FixedFrames
+from semnav_ros.lidar_check import learned_lidar, ranges_for, scan_of
+from semnav_ros.messages import (
+    BeliefMessage,
+    Bumps,
+    Counts,
+    NodeReply,
+    NodeStatus,
+    OdometryMessage,
+    Phase,
+    ScanMessage,
+    TransformMessage,
+)
+from semnav_ros.odometry_track import OdometryTrack
+from semnav_ros.shown_belief import shown_belief
+from semnav_ros.stamps import Arrival, StampJudge
+
+STALE = 0.5
+"""Age of the last scan from which on the robot stands, seconds by the node's clock."""
+
+FAREWELL = 1.0
+"""How long the node goes on to say that the robot stands, seconds, after it has nothing to do."""
+
+STILL: Twist = (0.0, 0.0, 0.0)
+ACTIVE = (Phase.RUNNING, Phase.IMPOSSIBLE)
+"""Phases of a command that runs; a clause that is impossible may become possible."""
+
+
+class RobotNode:
+    """Carries out spoken commands on what one robot publishes.
+
+        node = RobotNode("wheelchair", mount=(0.45, 0.0, 0.0))
+        node.command("go through the second door on the right", now)
+        node.odometry(OdometryMessage(stamp, (x, y, heading)), now)
+        forward, left, yaw_rate = node.scan(ScanMessage(stamp, ranges, -2.36, 0.0058), now).velocity
+
+    `now` is the time of the call by the node's own clock, seconds, which never goes back
+    (`time.monotonic`); stamps are of the robot's clock, which may. The robot moves only while a
+    command runs, and only by a scan that is not older than `STALE`: call `tick` often enough.
+
+    Args:
+        robot: the body; "wheelchair", "spot" or a spec of yours.
+        agent: what drives, see `make_agent`; it must not need the floor plan.
+        mount: pose of the lidar in the base frame; None takes it from the transforms.
+        base: x of the base frame's origin in the robot frame, metres: 0 if it lies in the middle of
+            the body, negative if it lies behind, as at an axle.
+        base_frame: name of the base frame in the transforms.
+        language: of the commands: "en" or "de"; recognised if not given.
+
+    Attributes:
+        counts: of the messages so far.
+
+    Raises:
+        ValueError: no such robot, agent or language, or a mount that is not on the body.
+    """
+
+    def __init__(
+        self,
+        robot: str | RobotSpec = "wheelchair",
+        agent: AgentSource = "scripted",
+        mount: Pose | None = None,
+        base: float = 0.0,
+        base_frame: str = "base_link",
+        language: str | None = None,
+    ) -> None:
+        self._robot, self._agent = robot_spec(robot), agent
+        self._base: Pose = (base, 0.0, 0.0)
+        self._base_frame, self._frames, self._mount = base_frame, FixedFrames(), mount
+        body = self._robot if mount is None else self._body(mount)
+        CommandDrive(body, lidar_spec("tim561"), agent).warm()
+        self._talk = Conversation(language)
+        self.counts = Counts()
+        self._stamps = StampJudge(self.counts)
+        self._track = OdometryTrack(self._robot, self.counts)
+        self._drive: CommandDrive | None = None
+        self._bumps: Bumps = ()
+        self._last_scan = self._active_at = -math.inf
+        self._problem = self._refusal = ""
+        self._phase, self._velocity = Phase.IDLE, STILL
+        self._command: Command | None = None
+        self._clauses: tuple[str, ...] = ()
+        self._start: Pose | None = None
+        self._seen: tuple[Belief, Pose] | None = None
+
+    def transform(self, transform: TransformMessage) -> None:
+        """Take a fixed transform, such as from the base frame to the lidar."""
+        self._frames.take(transform)
+
+    def bumps(self, bumps: Bumps) -> None:
+        """Take where the body is touched now; it holds until the next call."""
+        self._bumps = [(x + self._base[0], y, direction) for x, y, direction in bumps]
+
+    def odometry(self, odometry: OdometryMessage, now: float) -> NodeReply:
+        """Take dead reckoning; after a jump the robot stands until the next scan."""
+        try:
+            if self._track.take(odometry):
+                self._stand("odometry jumped; the robot counts as standing where it stood")
+        except ValueError as error:
+            self._stand(str(error))
+        return self.tick(now)
+
+    def command(self, text: str, now: float) -> NodeReply:
+        """Take a command or the answer to a question; it replaces what runs, a stop at once.
+
+        A text that is refused or asked about ends what runs, too: whoever speaks to a robot that
+        drives wants something else of it.
+        """
+        self._forget()
+        if self._phase is Phase.HELD:
+            self._talk.refuse(text, "the robot is held by its stop switch")
+        elif (command := self._talk.hear(text)) is None:
+            self._phase = Phase.ASKING if self._talk.question else Phase.REFUSED
+        elif command == STOP:
+            self._phase = Phase.STOPPED
+        else:
+            self._command, self._phase = command, Phase.RUNNING
+            self._clauses = tuple(map(str, command.clauses))
+        return self.tick(now)
+
+    def stop(self, held: bool, now: float) -> NodeReply:
+        """Take a stop switch: while held nothing moves, and after it only by a new command."""
+        if held or self._phase is Phase.HELD:
+            self._forget()
+            self._phase = Phase.HELD if held else Phase.STOPPED
+        return self.tick(now)
+
+    def scan(self, message: ScanMessage, now: float) -> NodeReply:
+        """Take a scan that came at `now`; the answer has the velocity that it leads to."""
+        try:
+            drive, ranges = self._checked(message)
+        except ValueError as error:
+            self.counts.refused += 1
+            self._refusal = str(error)
+            self._stand(self._refusal)
+            return self.tick(now)
+        self._refusal = ""
+        arrival, seconds = self._stamps.judge(message.stamp, 1.0 / drive.lidar.rate_hz)
+        if arrival in (Arrival.NEW, Arrival.CLOCK_WENT_BACK):
+            self.counts.scans += 1
+            self._last_scan = now
+            if arrival is Arrival.CLOCK_WENT_BACK:
+                self._stand("the clock of the scans went back")
+            elif self._phase in ACTIVE:
+                self._advance(drive, ranges, message.stamp, seconds)
+        return self.tick(now)
+
+    def tick(self, now: float) -> NodeReply:
+        """What holds now: the velocity is zero where the last scan is too old."""
+        problem = self._problem if self._phase in ACTIVE else ""
+        if self._phase not in ACTIVE:
+            self._velocity = STILL
+        elif now - self._last_scan > STALE:
+            self._velocity = STILL
+            problem = self._refusal or _age(now - self._last_scan)
+        if self._phase in (*ACTIVE, Phase.ASKING, Phase.HELD):
+            self._active_at = now
+        status = self._status(problem)
+        drives = now - self._active_at <= FAREWELL
+        return NodeReply(self._velocity, drives, status, self._talk.said)
+
+    @property
+    def belief(self) -> BeliefMessage | None:
+        """What is believed, odometry frame; None before the first scan of a command."""
+        return None if self._seen is None else shown_belief(*self._seen, self._base)
+
+    @property
+    def odometry_frame(self) -> str:
+        """The name of the odometry frame."""
+        return self._track.name
+
+    def _checked(self, message: ScanMessage) -> tuple[CommandDrive, FloatArray]:
+        """What drives by the scans of this lidar, and the ranges of the scan."""
+        scan = scan_of(message)
+        if self._drive is not None:
+            return self._drive, ranges_for(self._drive.lidar, scan)
+        mount = self._mount or self._frames.pose(message.frame, self._base_frame)
+        if mount is None:
+            raise ValueError(
+                f"no transform from {self._base_frame!r} to {message.frame!r}; publish it, or give "
+                "the pose of the lidar"
+            )
+        lidar = learned_lidar(message)
+        self._drive = CommandDrive(self._body(mount), lidar, self._agent)
+        return self._drive, ranges_for(lidar, scan)
+
+    def _body(self, mount: Pose) -> RobotSpec:
+        """The body with the lidar at a pose in the base frame."""
+        return replace(self._robot, lidar_mount=compose(self._base, mount))
+
+    def _advance(
+        self, drive: CommandDrive, ranges: FloatArray, stamp: float, seconds: float | None
+    ) -> None:
+        """Take a scan into the belief, and let the agent act."""
+        if (base := self._track.at(stamp)) is None:
+            self._stand("no odometry near the time of the scan")
+            return
+        centre = compose(base, relative(self._base, ORIGIN))
+        if self._start is None:
+            self._start, seconds = centre, None
+            drive.begin(self._command, self._talk.text)
+        belief, velocity = drive.update(
+            ranges, relative(self._start, centre), self._bumps, seconds
+        )
+        self._seen = belief, relative(self._track.frame, centre)
+        self._velocity, self._problem = velocity, ""
+        if belief.clause >= len(self._clauses):
+            self._phase = Phase.DONE
+        elif belief.impossible is not None:
+            self._phase, self._velocity = Phase.IMPOSSIBLE, STILL
+        else:
+            self._phase = Phase.RUNNING
+
+    def _stand(self, problem: str) -> None:
+        """Stand until the next scan, and say why."""
+        self._velocity, self._problem = STILL, problem
+
+    def _forget(self) -> None:
+        """Forget the command that runs."""
+        self._velocity, self._problem, self._clauses = STILL, "", ()
+        self._command = self._start = self._seen = None
+
+    def _status(self, problem: str) -> NodeStatus:
+        belief = None if self._seen is None else self._seen[0]
+        clause, reasons = (0, ()) if belief is None else (belief.clause, belief.reasons)
+        counts = replace(self.counts)
+        return NodeStatus(
+            self._phase, problem, self._talk.text, self._clauses, clause, reasons, counts
+        )
+
+
+def _age(seconds: float) -> str:
+    return f"no scan for {seconds:.1f} s" if math.isfinite(seconds) else "no scan so far"

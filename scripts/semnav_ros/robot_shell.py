@@ -1,0 +1,80 @@
+"""Runs the simulated robot on a wire, in real time or faster."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from typing import Any
+
+from semnav_features.frames import Twist
+from semnav_ros import conversions
+from semnav_ros.fields import Values
+from semnav_ros.robot_node import STILL
+from semnav_ros.simulated_robot import SimulatedRobot
+from semnav_ros.topics import NodeTopics
+from semnav_ros.wire import Wire
+
+LONGEST_SILENCE = 0.5
+"""Age of the last velocity from which on the robot stands, seconds."""
+
+BASE, LASER = "base_link", "laser"
+
+
+class RobotShell:
+    """A simulated robot on a wire: it says what it senses and obeys velocities.
+
+    Args:
+        robot: the robot.
+        wire: what carries its messages.
+        topics: their names and qualities, as the node's.
+        speed: simulated seconds a second.
+    """
+
+    def __init__(
+        self,
+        robot: SimulatedRobot,
+        wire: Wire,
+        topics: NodeTopics = NodeTopics(),
+        speed: float = 1.0,
+    ) -> None:
+        self._robot, self._wire, self._topics, self._speed = robot, wire, topics, speed
+        self._velocity: Twist = STILL
+        self._heard_at = -math.inf
+        for topic in (topics.scan, topics.odom, topics.bumps, topics.tf_static, topics.command):
+            wire.announce(topic)
+        wire.hear(topics.cmd_vel, self._obey)
+        wire.hear(topics.command, lambda values: robot.tell(values["text"]))
+
+    def run(
+        self, goes_on: Callable[[], bool], command: str | None = None
+    ) -> dict[str, Any] | None:
+        """Run until told otherwise, or until an episode has ended; returns its outcome.
+
+        Args:
+            goes_on: asked before each scan.
+            command: told on the topic of commands as soon as a node listens.
+        """
+        mount = conversions.transform_values(BASE, LASER, self._robot.mount)
+        self._wire.say(self._topics.tf_static, mount)
+        due = time.monotonic()
+        while goes_on() and self._robot.outcome is None:
+            if command is not None and self._wire.listeners(self._topics.command) > 1:
+                self._wire.say(self._topics.command, {"text": command})
+                command = None
+            self._say_sensed()
+            due = max(due + self._robot.period / self._speed, time.monotonic())
+            while (left := due - time.monotonic()) > 0.0:
+                self._wire.wait(left)
+            silent = time.monotonic() - self._heard_at > LONGEST_SILENCE
+            self._robot.drive(STILL if silent else self._velocity)
+        return self._robot.outcome
+
+    def _say_sensed(self) -> None:
+        scan, odometry, bumps = self._robot.sensed()
+        self._wire.say(self._topics.odom, conversions.odometry_values(odometry, BASE))
+        self._wire.say(self._topics.bumps, conversions.bumps_values(bumps, BASE))
+        self._wire.say(self._topics.scan, conversions.scan_values(scan))
+
+    def _obey(self, values: Values) -> None:
+        self._velocity, self._heard_at = conversions.twist_of(values), time.monotonic()

@@ -1,0 +1,70 @@
+"""Talks to ROS 1 by rospy."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import rosgraph
+import rospy
+
+from semnav_ros.fields import Values, written
+from semnav_ros.topics import Topic
+from semnav_ros.wire import Take, Waiting
+
+
+class Ros1Wire:
+    """A node of ROS 1.
+
+    If the master dies, what is connected stays connected; after the master came back, publishers
+    and subscribers that start anew find this node only when it was started anew, too.
+
+    Args:
+        node: its name.
+
+    Raises:
+        ConnectionError: there is no master at ROS_MASTER_URI.
+    """
+
+    def __init__(self, node: str) -> None:
+        if not rosgraph.is_master_online():
+            uri = rosgraph.get_master_uri()
+            raise ConnectionError(f"no ROS master at {uri}: start roscore, or set ROS_MASTER_URI")
+        rospy.init_node(node, disable_signals=True)
+        self._waiting = Waiting()
+        self._publishers: dict[str, Any] = {}
+
+    def hear(self, topic: Topic, take: Take) -> None:
+        """Give each message of a topic to `take`, in `wait`."""
+        put = self._waiting.add(topic, take)
+        options = {"queue_size": topic.depth, "tcp_nodelay": True, "buff_size": 2**20}
+        rospy.Subscriber(topic.name, ros1_type(topic.kind), put, **options)
+
+    def announce(self, topic: Topic) -> None:
+        """Say that messages of a topic will come."""
+        options = {"queue_size": topic.depth, "latch": topic.latched, "tcp_nodelay": True}
+        publisher = rospy.Publisher(topic.name, ros1_type(topic.kind), **options)
+        self._publishers[topic.name] = publisher
+
+    def say(self, topic: Topic, values: Values) -> None:
+        """Publish a message of a topic that was announced."""
+        message = written(topic.kind, values, lambda kind: ros1_type(kind)())
+        self._publishers[topic.name].publish(message)
+
+    def listeners(self, topic: Topic) -> int:
+        """How many hear a topic that was announced, itself included."""
+        return int(self._publishers[topic.name].get_num_connections())
+
+    def wait(self, seconds: float) -> None:
+        """Wait for messages for at most this time, and give what came to who takes it."""
+        self._waiting.give(seconds)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        rospy.signal_shutdown("closed")
+
+
+def ros1_type(kind: str) -> Any:
+    """The class of a message, such as "sensor_msgs/LaserScan"."""
+    package, name = kind.split("/")
+    return getattr(import_module(f"{package}.msg"), name)

@@ -1,0 +1,71 @@
+"""Talks to ROS 2 by rclpy."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import rclpy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+from semnav_ros.fields import Values, written
+from semnav_ros.topics import Topic
+from semnav_ros.wire import Take, Waiting
+
+
+class Ros2Wire:
+    """A node of ROS 2.
+
+    Args:
+        node: its name.
+    """
+
+    def __init__(self, node: str) -> None:
+        rclpy.init()
+        self._node = rclpy.create_node(node)
+        self._waiting = Waiting()
+        self._publishers: dict[str, Any] = {}
+
+    def hear(self, topic: Topic, take: Take) -> None:
+        """Give each message of a topic to `take`, in `wait`."""
+        put = self._waiting.add(topic, take)
+        self._node.create_subscription(ros2_type(topic.kind), topic.name, put, _qos(topic))
+
+    def announce(self, topic: Topic) -> None:
+        """Say that messages of a topic will come."""
+        publisher = self._node.create_publisher(ros2_type(topic.kind), topic.name, _qos(topic))
+        self._publishers[topic.name] = publisher
+
+    def say(self, topic: Topic, values: Values) -> None:
+        """Publish a message of a topic that was announced."""
+        message = written(topic.kind, values, lambda kind: ros2_type(kind)())
+        self._publishers[topic.name].publish(message)
+
+    def listeners(self, topic: Topic) -> int:
+        """How many hear a topic that was announced, itself included."""
+        return int(self._publishers[topic.name].get_subscription_count())
+
+    def wait(self, seconds: float) -> None:
+        """Wait for messages for at most this time, and give what came to who takes it."""
+        rclpy.spin_once(self._node, timeout_sec=seconds)
+        self._waiting.give(0.0)
+
+    def close(self) -> None:
+        """Leave the graph."""
+        self._node.destroy_node()
+        rclpy.shutdown()
+
+
+def ros2_type(kind: str) -> Any:
+    """The class of a message, such as "sensor_msgs/LaserScan"."""
+    package, name = kind.split("/")
+    return getattr(import_module(f"{package}.msg"), name)
+
+
+def _qos(topic: Topic) -> QoSProfile:
+    reliable, latched = ReliabilityPolicy.RELIABLE, DurabilityPolicy.TRANSIENT_LOCAL
+    return QoSProfile(
+        depth=topic.depth,
+        reliability=reliable if topic.reliable else ReliabilityPolicy.BEST_EFFORT,
+        durability=latched if topic.latched else DurabilityPolicy.VOLATILE,
+    )

@@ -1,0 +1,98 @@
+"""What carries messages: ROS 1, ROS 2 or DDS alone, behind one protocol."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterator
+from threading import Condition
+from typing import Any, Literal, Protocol, TypeAlias
+
+from semnav_ros.fields import Values, read
+from semnav_ros.topics import Topic
+
+Take: TypeAlias = Callable[[Values], None]
+"""What a message is given to, as plain data."""
+
+WireName: TypeAlias = Literal["ros1", "ros2", "dds"]
+
+
+class Wire(Protocol):
+    """Publishes and hears topics, in one thread."""
+
+    def hear(self, topic: Topic, take: Take) -> None:
+        """Give each message of a topic to `take`, in `wait`."""
+
+    def announce(self, topic: Topic) -> None:
+        """Say that messages of a topic will come."""
+
+    def say(self, topic: Topic, values: Values) -> None:
+        """Publish a message of a topic that was announced."""
+
+    def listeners(self, topic: Topic) -> int:
+        """How many hear a topic that was announced, itself included."""
+
+    def wait(self, seconds: float) -> None:
+        """Wait for messages for at most this time, and give what came to who takes it."""
+
+    def close(self) -> None:
+        """End the connection."""
+
+
+def open_wire(name: WireName, node: str) -> Wire:
+    """Open a connection.
+
+    Args:
+        name: "ros1" (rospy), "ros2" (rclpy), or "dds": Cyclone DDS, which talks to ROS 2.
+        node: name of the node.
+
+    Raises:
+        ModuleNotFoundError: its packages are not installed; says which.
+        ConnectionError: there is no ROS master.
+    """
+    if name == "ros1":
+        from semnav_ros.ros1_wire import Ros1Wire
+
+        return Ros1Wire(node)
+    if name == "ros2":
+        from semnav_ros.ros2_wire import Ros2Wire
+
+        return Ros2Wire(node)
+    from semnav_ros.dds_wire import DdsWire
+
+    return DdsWire()
+
+
+class Waiting:
+    """Messages that wait, by topic; those of the topic that was added first come first."""
+
+    def __init__(self) -> None:
+        self._came = Condition()
+        self._queues: list[tuple[Topic, Take, deque[Any]]] = []
+
+    def add(self, topic: Topic, take: Take) -> Callable[[Any], None]:
+        """Add a topic; returns what its messages are put in with, from any thread."""
+        queue: deque[Any] = deque(maxlen=topic.depth)
+        self._queues.append((topic, take, queue))
+
+        def put(message: Any) -> None:
+            with self._came:
+                queue.append(message)
+                self._came.notify()
+
+        return put
+
+    def give(self, seconds: float) -> None:
+        """Wait for at most this time for messages, and give them out."""
+        with self._came:
+            if not any(queue for *_, queue in self._queues):
+                self._came.wait(seconds)
+        for topic, take, message in self._taken():
+            take(read(topic.kind, message))
+
+    def _taken(self) -> Iterator[tuple[Topic, Take, Any]]:
+        """The messages that wait, until none is left or a scan was given out."""
+        while found := next((entry for entry in self._queues if entry[2]), None):
+            topic, take, queue = found
+            yield topic, take, queue.popleft()
+            if found is self._queues[-1]:
+                return

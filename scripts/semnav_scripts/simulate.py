@@ -1,0 +1,70 @@
+"""`semnav simulate`: the simulator as a robot that publishes scans and obeys velocities."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import dataclass, field
+
+from tyro.conf import Positional
+
+from semnav_ros.robot_shell import RobotShell
+from semnav_ros.simulated_robot import SimulatedRobot
+from semnav_ros.topics import NodeTopics
+from semnav_ros.wire import WireName, open_wire
+from semnav_scripts.arguments import OptionalText, parse_pose
+from semnav_scripts.node import renamings
+
+
+@dataclass(frozen=True)
+class Arguments:
+    """Let the simulator be a robot, to try `semnav node` and nodes of yours with.
+
+    It publishes scan, odom, tf_static and semnav/bumps, and obeys cmd_vel. It hears the commands on
+    semnav/command, too: the first that it understands begins an episode, and the judge says in the
+    end whether it was carried out. The exit code is 0 if it was, and 1 if not.
+
+    Attributes:
+        command: told on that topic as soon as a node listens; by somebody else if not given.
+        over: what carries the messages: ros1 (rospy), ros2 (rclpy), or dds, which talks to ROS 2
+            without ROS.
+        map: a floor plan: a name (office_cross, or office:medium:17, generated) or a path.
+        robot: wheelchair or spot.
+        pose: start pose of the robot, x,y,heading in metres and radians; random if not given.
+        seed: seed of everything that is random.
+        speed: simulated seconds a second.
+        seconds: give up after this time.
+        topics: other names of topics, such as scan=/front/scan.
+    """
+
+    command: Positional[str | None] = None
+    over: WireName = "ros2"
+    map: str = "heidelberg_hallway"
+    robot: str = "wheelchair"
+    pose: OptionalText = None
+    seed: int = 0
+    speed: float = 1.0
+    seconds: float = 3600.0
+    topics: tuple[str, ...] = field(default=())
+
+    def run(self) -> int:
+        """Run until the judge has said its verdict, or time is up."""
+        if not 0.1 <= self.speed <= 10.0:
+            raise ValueError(f"--speed is {self.speed:g}; it must lie in 0.1 to 10")
+        topics = NodeTopics().renamed(renamings(self.topics))
+        pose = None if self.pose is None else parse_pose(self.pose)
+        robot = SimulatedRobot(self.map, self.robot, pose, self.seed)
+        wire = open_wire(self.over, "semnav_robot")
+        end = time.monotonic() + self.seconds
+        try:
+            print("publishing; tell a command on semnav/command", flush=True)
+            shell = RobotShell(robot, wire, topics, self.speed)
+            outcome = shell.run(lambda: time.monotonic() < end, self.command)
+        finally:
+            wire.close()
+        if outcome is None:
+            print("no verdict")
+            return 1
+        kept = {name: outcome[name] for name in ("verdicts", "is_success", "collisions")}
+        print(json.dumps(kept, default=str), flush=True)
+        return 0 if outcome["is_success"] else 1
