@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test coverage packages versions lowest newest fallbacks lint types slow soak nightly docs policies browser clean
+.PHONY: demo test coverage packages versions lowest newest fallbacks lint types slow soak nightly docs policies browser ros clean
 
 demo: $(VENV)/.demo
 	$(BIN)/semnav demo "go through the second door on the right" --map heidelberg_hallway \
@@ -64,6 +64,10 @@ slow: $(VENV)/.test
 
 nightly: slow soak versions coverage
 
+# The node of a robot, with a ROS master of Debian's packages (python3-rospy, rosmaster) and by DDS.
+ros: $(VENV)/.test
+	$(BIN)/python -m pytest -rs tests/ros
+
 lint: $(VENV)/.test
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -92,7 +96,7 @@ $(VENV)/.docs: pyproject.toml constraints.txt
 
 $(VENV)/.test: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install -q -c constraints.txt -e ".[render,rl,ros,serve,dev]"
+	$(BIN)/pip install -q -c constraints.txt -e ".[render,rl,ros,serve,dds,dev]"
 	touch $@
 
 # On one core some 8 minutes of processor time for a seed of `drive`, 12 for one of `listener`: 100 in all.

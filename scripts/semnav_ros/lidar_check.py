@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from semnav_env.mind.belief.log_following import lidar_of
 from semnav_features import Scan
 from semnav_features.frames import FloatArray, wrap_angle
 from semnav_features.lidar_spec import LidarSpec
+from semnav_features.readers.geometry import checked_scan
+from semnav_features.readers.log import BadRecordError
 from semnav_ros.messages import ScanMessage
 
 USUAL_RATE = 15.0
@@ -18,14 +22,12 @@ def scan_of(message: ScanMessage) -> Scan:
     Raises:
         ValueError: its numbers make no scan; says why.
     """
-    return Scan(
-        message.ranges,
-        message.angle_min,
-        message.angle_increment,
-        message.range_min,
-        message.range_max,
-        message.stamp,
-    )
+    ranges = np.asarray(message.ranges, np.float64)
+    start, step, nearest = message.angle_min, message.angle_increment, message.range_min
+    try:
+        return checked_scan(ranges, start, step, message.range_max, message.stamp, nearest)
+    except BadRecordError as error:
+        raise ValueError(f"a scan with {error}") from None
 
 
 def learned_lidar(message: ScanMessage) -> LidarSpec:

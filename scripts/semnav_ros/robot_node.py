@@ -33,6 +33,8 @@ from semnav_ros.stamps import Arrival, StampJudge
 STALE = 0.5
 """Age of the last scan from which on the robot stands, seconds by the node's clock."""
 
+NO_SCAN = f"no scan for {STALE:g} s"
+
 FAREWELL = 1.0
 """How long the node goes on to say that the robot stands, seconds, after it has nothing to do."""
 
@@ -166,7 +168,7 @@ class RobotNode:
             self._velocity = STILL
         elif now - self._last_scan > STALE:
             self._velocity = STILL
-            problem = self._refusal or _age(now - self._last_scan)
+            problem = self._refusal or NO_SCAN
         if self._phase in (*ACTIVE, Phase.ASKING, Phase.HELD):
             self._active_at = now
         status = self._status(problem)
@@ -241,7 +243,3 @@ class RobotNode:
         return NodeStatus(
             self._phase, problem, self._talk.text, self._clauses, clause, reasons, counts
         )
-
-
-def _age(seconds: float) -> str:
-    return f"no scan for {seconds:.1f} s" if math.isfinite(seconds) else "no scan so far"

@@ -18,6 +18,10 @@ from semnav_ros.wire import Wire
 LONGEST_SILENCE = 0.5
 """Age of the last velocity from which on the robot stands, seconds."""
 
+FAREWELL = 2.0
+"""How long a robot goes on after its episode, seconds: its node may believe later than the judge
+that a command is done."""
+
 BASE, LASER = "base_link", "laser"
 
 
@@ -49,16 +53,20 @@ class RobotShell:
     def run(
         self, goes_on: Callable[[], bool], command: str | None = None
     ) -> dict[str, Any] | None:
-        """Run until told otherwise, or until an episode has ended; returns its outcome.
+        """Run until told otherwise, or a little longer than an episode; returns its outcome.
 
         Args:
             goes_on: asked before each scan.
             command: told on the topic of commands as soon as a node listens.
         """
-        mount = conversions.transform_values(BASE, LASER, self._robot.mount)
+        mount = conversions.transform_values(FAREWELL = 2.0
+"""How long a robot goes on after its episode, seconds: its node may believe later than the judge
+that a command is done."""
+
+BASE, LASER, self._robot.mount)
         self._wire.say(self._topics.tf_static, mount)
-        due = time.monotonic()
-        while goes_on() and self._robot.outcome is None:
+        due, end = time.monotonic(), math.inf
+        while goes_on() and due < end:
             if command is not None and self._wire.listeners(self._topics.command) > 1:
                 self._wire.say(self._topics.command, {"text": command})
                 command = None
@@ -68,6 +76,8 @@ class RobotShell:
                 self._wire.wait(left)
             silent = time.monotonic() - self._heard_at > LONGEST_SILENCE
             self._robot.drive(STILL if silent else self._velocity)
+            if self._robot.outcome is not None:
+                end = min(end, due + FAREWELL)
         return self._robot.outcome
 
     def _say_sensed(self) -> None:

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import Any
-
-import rosgraph
-import rospy
 
 from semnav_ros.fields import Values, written
 from semnav_ros.topics import Topic
 from semnav_ros.wire import Take, Waiting
+
+DEBIAN = "/usr/lib/python3/dist-packages"
+"""Where Debian's packages of ROS 1 lie. It is searched last, after this environment's packages."""
+
+if DEBIAN not in sys.path:
+    sys.path.append(DEBIAN)
+rosgraph, rospy = import_module("rosgraph"), import_module("rospy")
 
 
 class Ros1Wire:

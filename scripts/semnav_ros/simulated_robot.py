@@ -78,13 +78,10 @@ class SimulatedRobot:
     def drive(self, velocity: Twist) -> None:
         """Drive for one control period with a velocity."""
         self._steps += 1
-        if not self._runs:
-            self._simulator.step(velocity)
-            return
         shares = np.array(velocity) / self._limits
         action = shares if self._env.robot.holonomic else shares[[0, 2]]
         *_, terminated, truncated, info = self._env.step(action.astype(np.float32))
-        if terminated or truncated:
+        if self._runs and (terminated or truncated):
             self._runs, self.outcome = False, info
 
     def sensed(self) -> tuple[ScanMessage, OdometryMessage, Bumps]:

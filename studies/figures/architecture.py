@@ -15,6 +15,7 @@ ROOTS = {
     "semnav_features": ROOT / "features",
     "semnav_env": ROOT,
     "semnav_agents": ROOT / "agents",
+    "semnav_ros": ROOT / "scripts",
     "semnav_scripts": ROOT / "scripts",
 }
 LAYERS = tuple(ROOTS)
@@ -66,6 +67,7 @@ ABOUT = {
     "semnav_agents/planning": "the planner of the scripted agent and the oracle",
     "semnav_agents/searching": "searching a house: poses to look from, and people to approach",
     "semnav_env/language/translating": "the learned reader: values out, translated, ranked",
+    "semnav_ros": "a robot's own node: its core without ROS, and what carries its messages",
     "semnav_scripts": "the `semnav` command",
     "semnav_scripts/page": "the page of `semnav serve`: requests, sessions, server, web files",
 }
@@ -73,9 +75,9 @@ ABOUT = {
 TEMPLATE = """# Architecture
 
 The simulator and the robot meet only at the sensors: only data that a real robot has, too, go
-from one to the other. Each of the folders `features/`, `agents/` and `scripts/` is the root of one
-package, `semnav_features`, `semnav_agents` and `semnav_scripts`; `semnav_env/` is a package
-itself. Paths below begin with the package.
+from one to the other. The folder `features/` is the root of the package `semnav_features`, `agents/`
+that of `semnav_agents`, and `scripts/` that of `semnav_ros` and `semnav_scripts`; `semnav_env/` is a
+package itself. Paths below begin with the package.
 
                  SIMULATOR                     |                ROBOT'S SIDE
                                                |

@@ -12,6 +12,7 @@ ROOTS = {
     "semnav_features": ROOT / "features",
     "semnav_env": ROOT,
     "semnav_agents": ROOT / "agents",
+    "semnav_ros": ROOT / "scripts",
     "semnav_scripts": ROOT / "scripts",
 }
 """The installed packages, each with the folder that holds it."""
