@@ -53,9 +53,7 @@ def odometry_values(message: OdometryMessage, base_frame: str) -> Values:
 def transform_messages(values: Values) -> list[TransformMessage]:
     """The transforms of a tf2_msgs/TFMessage."""
     return [
-        TransformMessage(
-            each["frame"], each["child"], (each["x"], each["y"]), _quaternion_of(each)
-        )
+        TransformMessage(each["frame"], each["child"], (each["x"], each["y"]), _quaternion_of(each))
         for each in values["transforms"]
     ]
 

@@ -37,7 +37,9 @@ class DdsWire:
         """Give each message of a topic to `take`, in `wait`."""
         heard = _Heard(self._waiting.add(topic, take))
         place, qos = self._place(topic), qos_of(topic)
-        self._readers.append(DataReader(self._participant, place, qos, heard))
+        reader = DataReader(self._participant, place, qos, heard)
+        self._readers.append(reader)
+        heard.on_data_available(reader)  # what came while it was made
 
     def announce(self, topic: Topic) -> None:
         """Say that messages of a topic will come."""
@@ -71,12 +73,12 @@ class _Heard(Listener):
     """Puts the messages of a reader in a queue, in a thread of Cyclone's."""
 
     def __init__(self, put: Any) -> None:
-        super().__init__()
+        super().__init__()  # type: ignore[no-untyped-call]
         self._put = put
 
-    def on_data_available(self, reader: DataReader[Any]) -> None:
-        """Take what came."""
-        for message in reader.take(N=100):
+    def on_data_available(self, reader: DataReader[Any] | None) -> None:
+        """Take what came; Cyclone calls this with None while the reader is still made."""
+        for message in [] if reader is None else reader.take(N=100):
             if message.sample_info.valid_data:
                 self._put(message)
 
@@ -132,5 +134,7 @@ def _type_of(description: Any) -> tuple[Any, Any]:
     inner, count = detail
     item, default = _type_of(inner)
     if node.name == "ARRAY":
-        return types.array[item, count], lambda: [default() for _ in range(count)]
-    return types.sequence[item], list
+        row: Any = types.array
+        return row[item, count], lambda: [default() for _ in range(count)]
+    several: Any = types.sequence
+    return several[item], list

@@ -99,7 +99,8 @@ def _seconds(time: Any) -> float:
 
 
 def _set_seconds(time: Any, seconds: float) -> None:
-    whole, rest = divmod(round(seconds * 1e9), 10**9)
+    whole = int(seconds // 1)
+    rest = min(round((seconds - whole) * 1e9), 999_999_999)
     if hasattr(time, "secs"):
         time.secs, time.nsecs = whole, rest
     else:

@@ -94,9 +94,9 @@ class RobotNode:
         self._last_scan = self._active_at = -math.inf
         self._problem = self._refusal = ""
         self._phase, self._velocity = Phase.IDLE, STILL
-        self._command: Command | None = None
+        self._waiting: Command | None = None
         self._clauses: tuple[str, ...] = ()
-        self._start: Pose | None = None
+        self._start = ORIGIN
         self._seen: tuple[Belief, Pose] | None = None
 
     def transform(self, transform: TransformMessage) -> None:
@@ -130,7 +130,7 @@ class RobotNode:
         elif command == STOP:
             self._phase = Phase.STOPPED
         else:
-            self._command, self._phase = command, Phase.RUNNING
+            self._waiting, self._phase = command, Phase.RUNNING
             self._clauses = tuple(map(str, command.clauses))
         return self.tick(now)
 
@@ -212,12 +212,10 @@ class RobotNode:
             self._stand("no odometry near the time of the scan")
             return
         centre = compose(base, relative(self._base, ORIGIN))
-        if self._start is None:
-            self._start, seconds = centre, None
-            drive.begin(self._command, self._talk.text)
-        belief, velocity = drive.update(
-            ranges, relative(self._start, centre), self._bumps, seconds
-        )
+        if self._waiting is not None:
+            drive.begin(self._waiting, self._talk.text)
+            self._start, self._waiting, seconds = centre, None, None
+        belief, velocity = drive.update(ranges, relative(self._start, centre), self._bumps, seconds)
         self._seen = belief, relative(self._track.frame, centre)
         self._velocity, self._problem = velocity, ""
         if belief.clause >= len(self._clauses):
@@ -234,7 +232,7 @@ class RobotNode:
     def _forget(self) -> None:
         """Forget the command that runs."""
         self._velocity, self._problem, self._clauses = STILL, "", ()
-        self._command = self._start = self._seen = None
+        self._waiting = self._seen = None
 
     def _status(self, problem: str) -> NodeStatus:
         belief = None if self._seen is None else self._seen[0]

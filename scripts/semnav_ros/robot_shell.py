@@ -33,6 +33,10 @@ class RobotShell:
         wire: what carries its messages.
         topics: their names and qualities, as the node's.
         speed: simulated seconds a second.
+
+    Attributes:
+        delays: seconds from each scan that was said, or the oldest that got no answer, to the
+            velocity that was heard.
     """
 
     def __init__(
@@ -44,26 +48,22 @@ class RobotShell:
     ) -> None:
         self._robot, self._wire, self._topics, self._speed = robot, wire, topics, speed
         self._velocity: Twist = STILL
+        self._unanswered: float | None = None
+        self.delays: list[float] = []
         self._heard_at = -math.inf
         for topic in (topics.scan, topics.odom, topics.bumps, topics.tf_static, topics.command):
             wire.announce(topic)
         wire.hear(topics.cmd_vel, self._obey)
-        wire.hear(topics.command, lambda values: robot.tell(values["text"]))
+        wire.hear(topics.command, self._listen)
 
-    def run(
-        self, goes_on: Callable[[], bool], command: str | None = None
-    ) -> dict[str, Any] | None:
+    def run(self, goes_on: Callable[[], bool], command: str | None = None) -> dict[str, Any] | None:
         """Run until told otherwise, or a little longer than an episode; returns its outcome.
 
         Args:
             goes_on: asked before each scan.
             command: told on the topic of commands as soon as a node listens.
         """
-        mount = conversions.transform_values(FAREWELL = 2.0
-"""How long a robot goes on after its episode, seconds: its node may believe later than the judge
-that a command is done."""
-
-BASE, LASER, self._robot.mount)
+        mount = conversions.transform_values(BASE, LASER, self._robot.mount)
         self._wire.say(self._topics.tf_static, mount)
         due, end = time.monotonic(), math.inf
         while goes_on() and due < end:
@@ -85,6 +85,15 @@ BASE, LASER, self._robot.mount)
         self._wire.say(self._topics.odom, conversions.odometry_values(odometry, BASE))
         self._wire.say(self._topics.bumps, conversions.bumps_values(bumps, BASE))
         self._wire.say(self._topics.scan, conversions.scan_values(scan))
+        if self._unanswered is None:
+            self._unanswered = time.monotonic()
+
+    def _listen(self, values: Values) -> None:
+        self._robot.tell(values["text"])
+        self._unanswered = None
 
     def _obey(self, values: Values) -> None:
         self._velocity, self._heard_at = conversions.twist_of(values), time.monotonic()
+        if self._velocity != STILL and self._unanswered is not None:
+            self.delays.append(self._heard_at - self._unanswered)
+        self._unanswered = None

@@ -44,10 +44,9 @@ class SimulatedRobot:
         self._seed, self._steps, self._origin = seed, 0, ORIGIN
         self._env.reset(seed=seed, options={} if pose is None else {"pose": pose})
         self._simulator, self._runs = self._env.simulator, False
-        self._limits = np.array(
-            [self._env.robot.max_speed, self._env.robot.max_sideways_speed or 1.0]
-            + [self._env.robot.max_turn_rate]
-        )
+        body = self._env.robot
+        speeds = body.max_speed, body.max_sideways_speed or 1.0, body.max_turn_rate
+        self._limits = np.array(speeds)
         self.outcome: dict[str, Any] | None = None
         self.refusal = ""
 

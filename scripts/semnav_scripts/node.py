@@ -50,8 +50,7 @@ class Arguments:
         """Run until interrupted."""
         topics = NodeTopics().renamed(renamings(self.topics))
         mount = None if self.mount is None else parse_pose(self.mount)
-        settings = {"base_frame": self.base_frame, "language": self.language}
-        node = RobotNode(self.robot, self.agent, mount, self.base, **settings)
+        node = RobotNode(self.robot, self.agent, mount, self.base, self.base_frame, self.language)
         wire = open_wire(self.over, "semnav")
         try:
             NodeShell(node, wire, topics, self._note).run()

@@ -6,6 +6,7 @@ import json
 import time
 from dataclasses import dataclass, field
 
+import numpy as np
 from tyro.conf import Positional
 
 from semnav_ros.robot_shell import RobotShell
@@ -22,7 +23,8 @@ class Arguments:
 
     It publishes scan, odom, tf_static and semnav/bumps, and obeys cmd_vel. It hears the commands on
     semnav/command, too: the first that it understands begins an episode, and the judge says in the
-    end whether it was carried out. The exit code is 0 if it was, and 1 if not.
+    end whether it was carried out, and how long the velocities took to come after the scans. The
+    exit code is 0 if the command was carried out, and 1 if not.
 
     Attributes:
         command: told on that topic as soon as a node listens; by somebody else if not given.
@@ -66,5 +68,8 @@ class Arguments:
             print("no verdict")
             return 1
         kept = {name: outcome[name] for name in ("verdicts", "is_success", "collisions")}
+        if shell.delays:
+            shares = np.percentile(shell.delays, (50, 99)) * 1e3
+            kept |= {"delay_ms": dict(zip(("median", "99 of 100"), shares.round(1), strict=True))}
         print(json.dumps(kept, default=str), flush=True)
         return 0 if outcome["is_success"] else 1

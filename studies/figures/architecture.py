@@ -75,9 +75,9 @@ ABOUT = {
 TEMPLATE = """# Architecture
 
 The simulator and the robot meet only at the sensors: only data that a real robot has, too, go
-from one to the other. The folder `features/` is the root of the package `semnav_features`, `agents/`
-that of `semnav_agents`, and `scripts/` that of `semnav_ros` and `semnav_scripts`; `semnav_env/` is a
-package itself. Paths below begin with the package.
+from one to the other. The folder `features/` is the root of the package `semnav_features`,
+`agents/` that of `semnav_agents`, and `scripts/` that of `semnav_ros` and `semnav_scripts`;
+`semnav_env/` is a package itself. Paths below begin with the package.
 
                  SIMULATOR                     |                ROBOT'S SIDE
                                                |
@@ -93,10 +93,10 @@ contents of episodes, and whether they were carried out). `language` and `world`
 others, `mind` imports `language`, and `judge` imports all three. The environment (`env.py`,
 `vector`) connects them.
 
-`tests/test_layers.py` checks the imports. `semnav_scripts` may import `semnav_agents`, which may
-import `semnav_env`, which may import `semnav_features`, never the other way round. There are no
-import cycles. `semnav_env/mind/belief` imports nothing of the simulator or the
-judge.
+`tests/test_layers.py` checks the imports. `semnav_scripts` may import `semnav_ros`, which may
+import `semnav_agents`, which may import `semnav_env`, which may import `semnav_features`, never
+the other way round. There are no import cycles. `semnav_env/mind/belief` imports nothing of the
+simulator or the judge.
 
 [Where do I change what?](where.md) names the file for the most frequent
 changes: a door, a reward term, a clause, a sensor, a format, an agent, an entry of the observation.

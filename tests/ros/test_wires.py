@@ -1,0 +1,144 @@
+"""The node and a simulated robot in two processes, over real DDS and a real ROS 1 master."""
+
+import importlib.util
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.support.paths import ROOT, ROOTS
+
+TEXT = "go through the second door on the right"
+PLACE = "--pose=-2.5,-0.6,0.25"
+LOOPBACK = (
+    "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast><Interfaces>"
+    '<NetworkInterface name="lo" multicast="false"/></Interfaces></General><Discovery>'
+    "<ParticipantIndex>auto</ParticipantIndex><Peers><Peer address='127.0.0.1'/></Peers>"
+    "</Discovery></Domain></CycloneDDS>"
+)
+MASTER = Path("/usr/bin/rosmaster")
+DEBIAN = Path("/usr/lib/python3/dist-packages")
+PORT = 11371
+
+needs_dds = pytest.mark.skipif(
+    importlib.util.find_spec("cyclonedds") is None,
+    reason='cyclonedds is not installed: pip install ".[dds]"',
+)
+needs_ros1 = pytest.mark.skipif(
+    not (MASTER.exists() and (DEBIAN / "rospy").exists()),
+    reason="ROS 1 is not installed: apt-get install python3-rospy python3-rosmaster "
+    "python3-sensor-msgs python3-nav-msgs python3-visualization-msgs python3-tf2-msgs",
+)
+pytestmark = pytest.mark.slow
+
+
+def environment(tmp_path, **more):
+    roots = [str(folder) for folder in dict.fromkeys((ROOT, *ROOTS.values()))]
+    path = os.pathsep.join([*roots, os.environ.get("PYTHONPATH", "")])
+    ros1 = {"ROS_MASTER_URI": f"http://127.0.0.1:{PORT}", "ROS_IP": "127.0.0.1"}
+    dds = {"ROS_DOMAIN_ID": "93", "CYCLONEDDS_URI": LOOPBACK}
+    return {**os.environ, **ros1, **dds, "ROS_LOG_DIR": str(tmp_path), "PYTHONPATH": path, **more}
+
+
+@pytest.fixture
+def start(tmp_path):
+    """Starts a sub-command of `semnav` or another program; ends it after the test."""
+    running = []
+
+    def begin(*words, program=(sys.executable, "-m", "semnav_scripts.main")):
+        process = subprocess.Popen(
+            [*program, *words],
+            env=environment(tmp_path),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        running.append(process)
+        return process
+
+    yield begin
+    for process in running:
+        process.kill()
+        process.wait()
+        process.stdout.close()
+
+
+@pytest.fixture
+def master(start):
+    """A ROS 1 master, by Debian's Python and not by this environment's."""
+    process = start("--core", "-p", str(PORT), program=("/usr/bin/python3", str(MASTER)))
+    time.sleep(2.0)
+    assert process.poll() is None, process.stdout.read()
+    return process
+
+
+def outcome_of(process, seconds=150):
+    """What a simulated robot prints in the end."""
+    said, _ = process.communicate(timeout=seconds)
+    lines = said.splitlines()
+    assert lines[-1].startswith("{"), said
+    return json.loads(lines[-1])
+
+
+def lines_of(process):
+    """What a node printed until it was ended."""
+    process.terminate()
+    said, _ = process.communicate(timeout=30)
+    return [json.loads(line) for line in said.splitlines() if line.startswith("{")]
+
+
+def drive(start, wire):
+    """Drive by one wire; returns the judge's outcome and the states of the node."""
+    node = start("node", "--over", wire, "--json")
+    robot = start("simulate", TEXT, "--over", wire, PLACE, "--seconds", "140")
+    outcome = outcome_of(robot)
+    assert robot.returncode == 0
+    return outcome, lines_of(node)
+
+
+@needs_dds
+def test_a_command_by_dds_is_carried_out_as_the_judge_sees_it(start):
+    outcome, states = drive(start, "dds")
+    assert outcome["verdicts"] == ["done"]
+    assert "done" in [state["phase"] for state in states]
+
+
+@needs_ros1
+def test_a_command_by_ros_1_is_carried_out_as_the_judge_sees_it(start, master):
+    outcome, states = drive(start, "ros1")
+    assert outcome["verdicts"] == ["done"]
+    assert "done" in [state["phase"] for state in states]
+
+
+@needs_ros1
+def test_a_drive_outlives_the_master_of_ros_1(start, master):
+    node = start("node", "--over", "ros1", "--json")
+    robot = start("simulate", TEXT, "--over", "ros1", PLACE, "--seconds", "140")
+    for line in node.stdout:
+        if json.loads(line)["clauses"]:  # the command has come, so all are connected
+            break
+    master.kill()
+    assert outcome_of(robot)["verdicts"] == ["done"]
+
+
+@needs_ros1
+def test_without_a_master_the_node_says_so(start):
+    node = start("node", "--over", "ros1")
+    said, _ = node.communicate(timeout=120)
+    assert node.returncode == 2
+    assert "no ROS master at http://127.0.0.1" in said
+
+
+@needs_dds
+def test_the_types_on_the_wire_have_the_names_of_ros_2():
+    from semnav_ros.dds_wire import dds_type
+
+    scan = dds_type("sensor_msgs/LaserScan")
+    assert scan.__idl_typename__ == "sensor_msgs.msg.dds_.LaserScan_"
+    message = scan()
+    message.ranges = [1.0, 2.0]
+    assert scan.deserialize(message.serialize()) == message
