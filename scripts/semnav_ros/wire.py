@@ -5,15 +5,13 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterator
 from threading import Condition
-from typing import Any, Literal, Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 from semnav_ros.fields import Values, read
 from semnav_ros.topics import Topic
 
 Take: TypeAlias = Callable[[Values], None]
 """What a message is given to, as plain data."""
-
-WireName: TypeAlias = Literal["ros1", "ros2", "dds"]
 
 
 class Wire(Protocol):
@@ -36,30 +34,6 @@ class Wire(Protocol):
 
     def close(self) -> None:
         """End the connection."""
-
-
-def open_wire(name: WireName, node: str) -> Wire:
-    """Open a connection.
-
-    Args:
-        name: "ros1" (rospy), "ros2" (rclpy), or "dds": Cyclone DDS, which talks to ROS 2.
-        node: name of the node.
-
-    Raises:
-        ModuleNotFoundError: its packages are not installed; says which.
-        ConnectionError: there is no ROS master.
-    """
-    if name == "ros1":
-        from semnav_ros.ros1_wire import Ros1Wire
-
-        return Ros1Wire(node)
-    if name == "ros2":
-        from semnav_ros.ros2_wire import Ros2Wire
-
-        return Ros2Wire(node)
-    from semnav_ros.dds_wire import DdsWire
-
-    return DdsWire()
 
 
 class Waiting:

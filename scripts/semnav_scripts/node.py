@@ -7,9 +7,9 @@ from dataclasses import asdict, dataclass, field
 
 from semnav_ros.messages import NodeReply, Phase
 from semnav_ros.node_shell import NodeShell
+from semnav_ros.opening import WireName, open_wire
 from semnav_ros.robot_node import RobotNode
 from semnav_ros.topics import NodeTopics
-from semnav_ros.wire import WireName, open_wire
 from semnav_scripts.arguments import OptionalText, parse_pose
 
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from tyro.conf import Positional
 
+from semnav_ros.opening import WireName, open_wire
 from semnav_ros.robot_shell import RobotShell
 from semnav_ros.simulated_robot import SimulatedRobot
 from semnav_ros.topics import NodeTopics
-from semnav_ros.wire import WireName, open_wire
 from semnav_scripts.arguments import OptionalText, parse_pose
 from semnav_scripts.node import renamings
 

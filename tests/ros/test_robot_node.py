@@ -19,7 +19,7 @@ class Rig:
     """A node with a simulated robot, and the node's clock."""
 
     def __init__(self, **options):
-        self.robot = SimulatedRobot("heidelberg_hallway", pose=(-2.5, -0.6, 0.25))
+        self.robot = SimulatedRobot("heidelberg_hallway", pose=(1.0, 0.3, 0.24))
         self.node = RobotNode("wheelchair", **({"mount": self.robot.mount} | options))
         self.now = 5.0
 

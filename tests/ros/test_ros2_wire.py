@@ -54,7 +54,7 @@ def node(monkeypatch):
 
 
 def test_a_text_goes_out_and_comes_in_with_the_quality_of_its_topic(node):
-    from semnav_ros.wire import open_wire
+    from semnav_ros.opening import open_wire
 
     wire, topics, heard = open_wire("ros2", "semnav"), NodeTopics(), []
     wire.hear(topics.status, heard.append)

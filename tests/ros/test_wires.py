@@ -13,7 +13,7 @@ import pytest
 from tests.support.paths import ROOT, ROOTS
 
 TEXT = "go through the second door on the right"
-PLACE = "--pose=-2.5,-0.6,0.25"
+PLACE = "--pose=1.0,0.3,0.24"
 LOOPBACK = (
     "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast><Interfaces>"
     '<NetworkInterface name="lo" multicast="false"/></Interfaces></General><Discovery>'
@@ -138,7 +138,7 @@ def test_the_types_on_the_wire_have_the_names_of_ros_2():
     from semnav_ros.dds_wire import dds_type
 
     scan = dds_type("sensor_msgs/LaserScan")
-    assert scan.__idl_typename__ == "sensor_msgs.msg.dds_.LaserScan_"
+    assert scan.__idl_typename__ == "sensor_msgs::msg::dds_::LaserScan_"
     message = scan()
     message.ranges = [1.0, 2.0]
     assert scan.deserialize(message.serialize()) == message
