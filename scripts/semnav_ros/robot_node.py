@@ -158,7 +158,7 @@ class RobotNode:
             if arrival is Arrival.CLOCK_WENT_BACK:
                 self._stand("the clock of the scans went back")
             elif self._phase in ACTIVE:
-                self._advance(drive, ranges, message.stamp, seconds)
+                self._try_to_advance(drive, ranges, message.stamp, seconds)
         return self.tick(now)
 
     def tick(self, now: float) -> NodeReply:
@@ -203,6 +203,15 @@ class RobotNode:
     def _body(self, mount: Pose) -> RobotSpec:
         """The body with the lidar at a pose in the base frame."""
         return replace(self._robot, lidar_mount=compose(self._base, mount))
+
+    def _try_to_advance(
+        self, drive: CommandDrive, ranges: FloatArray, stamp: float, seconds: float | None
+    ) -> None:
+        """Advance, or stand where what was sensed is refused, such as a bump that is not finite."""
+        try:
+            self._advance(drive, ranges, stamp, seconds)
+        except ValueError as error:
+            self._stand(str(error))
 
     def _advance(
         self, drive: CommandDrive, ranges: FloatArray, stamp: float, seconds: float | None

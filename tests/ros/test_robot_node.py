@@ -175,6 +175,18 @@ def test_odometry_that_is_not_finite_stops_the_robot(rig):
     assert "not finite" in reply.status.problem
 
 
+def test_a_bump_that_is_not_finite_stops_the_robot_and_not_the_node(rig):
+    rig.drive()
+    rig.node.bumps([(np.nan, 0.0, 0.0)])
+    scan, odometry, _ = rig.robot.sensed()
+    rig.node.odometry(odometry, rig.now)
+    reply = rig.node.scan(scan, rig.now)
+    assert reply.velocity == STILL
+    assert "bump" in reply.status.problem
+    rig.robot.drive(STILL)
+    assert rig.period().velocity != STILL
+
+
 def test_without_odometry_the_robot_stands(rig):
     rig.node.command(TEXT, rig.now)
     scan, _, _ = rig.robot.sensed()
