@@ -29,11 +29,14 @@ from semnav_ros.messages import (
 from semnav_ros.odometry_track import OdometryTrack
 from semnav_ros.shown_belief import shown_belief
 from semnav_ros.stamps import Arrival, StampJudge
+from semnav_ros.standstill import PATIENCE, StandstillWatch
 
 STALE = 0.5
 """Age of the last scan from which on the robot stands, seconds by the node's clock."""
 
 NO_SCAN = f"no scan for {STALE:g} s"
+
+NO_MOTION = f"the robot has been told to move for {PATIENCE:g} s, and odometry says that it stands"
 
 FAREWELL = 1.0
 """How long the node goes on to say that the robot stands, seconds, after it has nothing to do."""
@@ -89,6 +92,7 @@ class RobotNode:
         self.counts = Counts()
         self._stamps = StampJudge(self.counts)
         self._track = OdometryTrack(self._robot, self.counts)
+        self._watch = StandstillWatch()
         self._drive: CommandDrive | None = None
         self._bumps: Bumps = ()
         self._last_scan = self._active_at = -math.inf
@@ -226,7 +230,8 @@ class RobotNode:
             self._start, self._waiting, seconds = centre, None, None
         belief, velocity = drive.update(ranges, relative(self._start, centre), self._bumps, seconds)
         self._seen = belief, relative(self._track.frame, centre)
-        self._velocity, self._problem = velocity, ""
+        stands = self._watch.stands(stamp, base, velocity)
+        self._velocity, self._problem = velocity, NO_MOTION if stands else ""
         if belief.clause >= len(self._clauses):
             self._phase = Phase.DONE
         elif belief.impossible is not None:

@@ -7,7 +7,7 @@ import pytest
 
 from semnav_features.frames import compose
 from semnav_ros import OdometryMessage, Phase, RobotNode, ScanMessage, TransformMessage
-from semnav_ros.robot_node import NO_SCAN
+from semnav_ros.robot_node import NO_MOTION, NO_SCAN
 from semnav_ros.simulated_robot import SimulatedRobot
 
 TEXT = "go through the second door on the right"
@@ -173,6 +173,18 @@ def test_odometry_that_is_not_finite_stops_the_robot(rig):
     reply = rig.node.odometry(OdometryMessage(200.0, (np.nan, 0.0, 0.0)), rig.now)
     assert reply.velocity == STILL
     assert "not finite" in reply.status.problem
+
+
+def test_a_robot_that_does_not_move_is_reported_and_told_on(rig):
+    rig.drive()
+    scan, odometry, _ = rig.robot.sensed()
+    replies = []
+    for step in range(1, 70):  # its motors are off
+        stamp = scan.stamp + step * PERIOD
+        rig.node.odometry(replace(odometry, stamp=stamp), rig.now)
+        replies.append(rig.node.scan(replace(scan, stamp=stamp), rig.now))
+    assert replies[30].status.problem == ""
+    assert NO_MOTION in {reply.status.problem for reply in replies[45:]}
 
 
 def test_a_bump_that_is_not_finite_stops_the_robot_and_not_the_node(rig):
