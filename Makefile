@@ -64,7 +64,7 @@ slow: $(VENV)/.test
 
 nightly: slow soak versions coverage
 
-# The node of a robot, with a ROS master of Debian's packages (python3-rospy, rosmaster) and by DDS.
+# The node of a robot, with a ROS master of Debian's packages (python3-rospy, python3-rosmaster) and by DDS.
 ros: $(VENV)/.test
 	$(BIN)/python -m pytest -rs tests/ros
 

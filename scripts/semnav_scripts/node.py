@@ -50,9 +50,11 @@ class Arguments:
         """Run until interrupted."""
         topics = NodeTopics().renamed(renamings(self.topics))
         mount = None if self.mount is None else parse_pose(self.mount)
-        node = RobotNode(self.robot, self.agent, mount, self.base, self.base_frame, self.language)
-        wire = open_wire(self.over, "semnav")
+        wire = open_wire(self.over, "semnav")  # first, for what is missing is then said at once
         try:
+            node = RobotNode(
+                self.robot, self.agent, mount, self.base, self.base_frame, self.language
+            )
             NodeShell(node, wire, topics, self._note).run()
         finally:
             wire.close()

@@ -55,12 +55,12 @@ class Arguments:
             raise ValueError(f"--speed is {self.speed:g}; it must lie in 0.1 to 10")
         topics = NodeTopics().renamed(renamings(self.topics))
         pose = None if self.pose is None else parse_pose(self.pose)
-        robot = SimulatedRobot(self.map, self.robot, pose, self.seed)
         wire = open_wire(self.over, "semnav_robot")
-        end = time.monotonic() + self.seconds
         try:
-            print("publishing; tell a command on semnav/command", flush=True)
+            robot = SimulatedRobot(self.map, self.robot, pose, self.seed)
             shell = RobotShell(robot, wire, topics, self.speed)
+            print("publishing; tell a command on semnav/command", flush=True)
+            end = time.monotonic() + self.seconds
             outcome = shell.run(lambda: time.monotonic() < end, self.command)
         finally:
             wire.close()
