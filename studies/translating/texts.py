@@ -22,7 +22,14 @@ from semnav_env.language.declarations import Spoken, field_names
 from semnav_env.language.errors import CommandError
 from semnav_env.language.languages import english
 from semnav_env.language.normalise import normalise
-from semnav_env.language.references import ENTRY, OTHER, DoorReference, PlaceReference, Side
+from semnav_env.language.references import (
+    ENTRY,
+    OTHER,
+    DoorReference,
+    DoorRelation,
+    PlaceReference,
+    Side,
+)
 from semnav_env.language.rewording import paraphrases
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.sampling import sample_command
@@ -129,7 +136,9 @@ def _recounted(value: Any, rng: np.random.Generator) -> Any:
     """A clause or a part of one with other ordinals than the first, from the end or not."""
     counted = isinstance(value, DoorReference | PlaceReference)
     if counted and value.ordinal not in (1, OTHER, ENTRY):
-        return replace(value, ordinal=(2, 3, 4, 5, -1, -2)[int(rng.integers(6))])
+        ordinal = (2, 3, 4, 5, -1, -2)[int(rng.integers(6))]
+        beside = isinstance(value, DoorReference) and value.relation is DoorRelation.AT
+        return value if beside and ordinal < 0 else replace(value, ordinal=ordinal)
     return _changed(value, lambda part: _recounted(part, rng))
 
 

@@ -13,39 +13,18 @@ from semnav_env.language import (
     GoToDoor,
     Question,
     Stop,
+    parse,
     read,
     sample_command,
 )
 from semnav_env.language.languages import languages
 from semnav_env.language.question import MOST_QUESTIONS, ask_until_clear
 from semnav_env.language.references import ENTRY, DoorReference, Side
-
-QUESTIONS = [
-    ("turn 90 degrees", "Left, or right?"),
-    ("go back", "Back to the start, or around and down the hallway?"),
-    ("go past the first door, then through the second door", "The second, or the first?"),
-    ("go to the kitchn", 'Did you mean "kitchen"?'),
-    ("zorgle to the corner", 'I do not know "zorgle": shall I leave it out?'),
-    ("dreh dich um 90 Grad", "Links oder rechts?"),
-    ("geh zur Küüche", 'Meinst du "kueche"?'),
-]
-
-
-def question(text: str, rooms: tuple[str, ...] = ("kitchen", "Küche")) -> Question:
-    with pytest.raises(AmbiguousCommandError) as caught:
-        read(text, None, rooms)
-    return caught.value.question
+from tests.support.asked import asked_about
 
 
 def of_readings(language: str, *texts: str) -> Question:
-    return Question(tuple(map(read, texts)), languages()[language], read)
-
-
-@pytest.mark.parametrize(("text", "asked"), QUESTIONS)
-def test_a_question_names_what_is_open_in_the_language_of_the_speaker(
-    text: str, asked: str
-) -> None:
-    assert question(text).text == asked
+    return Question(tuple(map(read, texts)), languages()[language], parse)
 
 
 DOOR = ("go through the second door on the left", "go to the second door on the left")
@@ -169,14 +148,15 @@ def test_the_door_one_came_in_by_is_asked_about_by_its_name() -> None:
 
 
 def test_parse_asks_until_it_is_clear() -> None:
-    asked, answers = [], iter(["what?", "the right one"])
+    text, question = asked_about()
+    asked, answers = [], iter(["what?", question.choices[1].name])
 
     def ask(text: str) -> str:
         asked.append(text)
         return next(answers)
 
-    assert read("turn 90 degrees", ask=ask) == read("turn right by 90 degrees")
-    assert asked == ["Left, or right?"] * 2
+    assert parse(text, ask=ask) == question.readings[1]
+    assert asked == [question.text] * 2
 
 
 def test_a_person_is_not_asked_for_ever() -> None:
@@ -187,14 +167,13 @@ def test_a_person_is_not_asked_for_ever() -> None:
         return "what?"
 
     with pytest.raises(AmbiguousCommandError):
-        read("turn 90 degrees", ask=ask)
+        parse(asked_about()[0], ask=ask)
     assert len(asked) == MOST_QUESTIONS
 
 
 def test_a_question_survives_pickling() -> None:
-    with pytest.raises(AmbiguousCommandError) as caught:
-        read("turn 90 degrees")
-    copy = pickle.loads(pickle.dumps(caught.value))
-    assert str(copy) == str(caught.value)
-    assert copy.question.answer("left") == read("turn left by 90 degrees")
-    assert ask_until_clear(copy, lambda _: "right") == read("turn right by 90 degrees")
+    error = AmbiguousCommandError("turn", of_readings("en", *SIDES))
+    copy = pickle.loads(pickle.dumps(error))
+    assert str(copy) == str(error)
+    assert copy.question.answer("left") == read(SIDES[0])
+    assert ask_until_clear(copy, lambda _: "right") == read(SIDES[1])

@@ -6,8 +6,10 @@ import sys
 import pytest
 
 from semnav_scripts.main import main
+from tests.support.asked import asked_about
 
-GROUND = ["ground", "turn 90 degrees", "--pose=0,0,0"]
+TEXT, QUESTION = asked_about()
+GROUND = ["ground", TEXT, "--pose=-2.5,-0.3,0.24"]
 
 
 class Terminal(io.StringIO):
@@ -19,11 +21,11 @@ class Terminal(io.StringIO):
 
 def test_a_person_at_the_terminal_is_asked(monkeypatch, capsys) -> None:
     shown = Terminal()
-    monkeypatch.setattr(sys, "stdin", Terminal("what?\nright\n"))
+    monkeypatch.setattr(sys, "stdin", Terminal(f"what?\n{QUESTION.choices[0].name}\n"))
     monkeypatch.setattr(sys, "stderr", shown)
     assert main(GROUND) == 0
-    assert "turn right by 90 degrees" in capsys.readouterr().out
-    assert shown.getvalue() == "Left, or right? " * 2
+    assert capsys.readouterr().out
+    assert shown.getvalue() == f"{QUESTION.text} " * 2
 
 
 def test_an_end_of_the_input_is_no_answer(monkeypatch) -> None:
@@ -37,7 +39,7 @@ def test_an_end_of_the_input_is_no_answer(monkeypatch) -> None:
 def test_nobody_is_asked_in_a_pipe(monkeypatch, capsys) -> None:
     monkeypatch.setattr(sys, "stdin", io.StringIO("right\n"))
     assert main(GROUND) == 2
-    assert "Left, or right?" in capsys.readouterr().err
+    assert QUESTION.text in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("ask", [3, "left"])
@@ -46,9 +48,8 @@ def test_what_cannot_be_asked_is_refused(ask: object) -> None:
 
     env = SemNavEnv(floor_plan="office_cross")
     with pytest.raises(ValueError, match="ask"):
-        env.reset(seed=0, options={"command": "turn 90 degrees", "ask": ask})
-    _, info = env.reset(
-        seed=0, options={"command": "turn 90 degrees", "ask": lambda question: "the left one"}
-    )
-    assert info["command"] == "turn left by 90 degrees"
+        env.reset(seed=0, options={"command": TEXT, "ask": ask})
+    options = {"command": TEXT, "ask": lambda question: QUESTION.choices[1].name}
+    _, info = env.reset(seed=0, options=options)
+    assert info["command"] == str(QUESTION.readings[1])
     env.close()

@@ -15,6 +15,7 @@ import pytest
 
 from semnav_scripts.page.outbox import MAX_NEWS, ClientTooSlowError, Outbox
 from semnav_scripts.page.requests import MAX_REQUEST, SceneRequest, read_request
+from tests.support.asked import asked_about
 from tests.support.command_line import run
 from tests.support.paths import ROOT, source
 
@@ -200,20 +201,22 @@ def test_german_is_answered_in_german(client):
 
 def test_an_ambiguous_command_is_asked_about_and_an_answer_settles_it(client):
     with in_the_hallway(client) as one:
-        one.send(type="command", text="turn 90 degrees")
+        text, question = asked_about()
+        one.send(type="command", text=text)
         asked = one.next("asked")
-        assert asked["question"] == "Left, or right?"
-        assert asked["choices"] == ["left", "right"]
-        one.send(type="answer", text="left")
-        assert one.next("understood")["clauses"] == ["turn left by 90 degrees"]
+        assert asked["question"] == question.text
+        assert asked["choices"] == [choice.name for choice in question.choices]
+        one.send(type="answer", text=asked["choices"][1])
+        assert one.next("understood")["clauses"][-1] == str(question.readings[1].clauses[-1])
 
 
 def test_an_answer_that_settles_nothing_is_asked_again(client):
     with in_the_hallway(client) as one:
-        one.send(type="command", text="turn 90 degrees")
+        text, question = asked_about()
+        one.send(type="command", text=text)
         one.next("asked")
         one.send(type="answer", text="blue")
-        assert one.next("asked", "refused")["question"] == "Left, or right?"
+        assert one.next("asked", "refused")["question"] == question.text
 
 
 def test_a_refusal_says_which_words_are_not_understood(client):

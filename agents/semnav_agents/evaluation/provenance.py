@@ -27,7 +27,7 @@ DECIDING = (
     "semnav_env/world/lidar",
     *("semnav_features", "semnav_features/kernels"),
     *("semnav_env/mind/belief", "semnav_env/mind/grounding", "semnav_env/mind/observations"),
-    *("semnav_env/language", "semnav_env/language/speech"),
+    *("semnav_env/language", "semnav_env/language/vocabulary"),
     *("semnav_env/judge/routes", "semnav_env/judge/tasks", "semnav_env/judge"),
     *(f"semnav_env/judge/metrics/{name}.py" for name in ("measure", "motion", "paths")),
 )
