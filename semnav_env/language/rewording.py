@@ -61,7 +61,11 @@ class _VariedLanguage(Language):
 
         spoken = language_of(self.code)
         words, lexicon = plain_words(text, spoken), lexicon_of(spoken)
-        kinds = (kind for at in range(len(words)) for kind, _, _ in lexicon.matches(words, at))
+        others = ("side", "noun")  # "left" and "bend" are verbs, too
+        places = (
+            k for k in range(len(words)) if not any(lexicon.find(words, k, o) for o in others)
+        )
+        kinds = (kind for at in places for kind, _, _ in lexicon.matches(words, at))
         return any(kind in ("verb", "around", "around alone") for kind in kinds)
 
     def _any_of(self, usual: str, key: str) -> str:

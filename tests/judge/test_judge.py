@@ -202,7 +202,7 @@ def test_a_corner_outside_the_building_is_refused() -> None:
 
 def test_after_a_stop_the_next_clause_begins_where_the_stop_did() -> None:
     """It does not matter where the robot stands."""
-    judge = judge_of("follow the hallway for 3 metres, stop and turn left")
+    judge = judge_of("go down the hallway for 3 metres, stop and turn left")
     walk(judge, (3.6, 9.6))
     judge.update(Motion((3.6, 9.6, 0.0), 0.0, 0.0, in_contact=False, seconds=1 / 15))
     assert [str(verdict) for verdict in judge.verdicts] == ["done", "done", "active"]

@@ -28,7 +28,7 @@ def error_of(text: object) -> CommandError:
         ("go to the toilet", 'there is no room "toilet"'),
         ("fahr zur Toilette", 'es gibt keinen Raum "Toilette"'),
         ("climb onto the zorgblat", '"zorgblat" is not understood'),
-        ("klettre auf den Zorgblatt", '"Zorgblatt" ist nicht verstanden'),
+        ("fahr hinter den Zorgblatt", '"Zorgblatt" ist nicht verstanden'),
     ],
 )
 def test_what_is_not_understood_is_named_in_the_language_of_the_speaker(text, problem) -> None:
@@ -46,10 +46,10 @@ def test_the_rooms_that_there_are_are_told() -> None:
 
 
 def test_the_place_is_that_of_the_text_as_given() -> None:
-    error = error_of("  ＴＵＲＮ \u200b  ﬁrebird")
+    error = error_of("  ＴＨＥ \u200b  ﬁrebird")
     assert error.text[error.position :] == "ﬁrebird"
     caret = str(error).splitlines()[2]
-    assert caret.index("^") == 2 + len("  ") + 2 * len("TURN") + len(" \u200b  ")
+    assert caret.index("^") == 2 + len("  ") + 2 * len("THE") + len(" \u200b  ")
 
 
 LETTERS = st.text("abcdefghijklmnopqrstuvwxyz", max_size=8)

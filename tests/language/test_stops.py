@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.language import Command, CommandError, Stop, parse
+from semnav_env.language.corpora.meanings import key_of
 from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
 
 STOP = Command((Stop(),))
@@ -55,7 +56,7 @@ def test_a_call_beside_what_is_not_understood_is_a_stop(text: str) -> None:
     ],
 )
 def test_a_stop_that_is_part_of_a_route_stays_part_of_it(text: str, meant: str) -> None:
-    assert str(parse(text)) == meant
+    assert key_of(parse(text)) == key_of(parse(meant))
 
 
 @pytest.mark.parametrize(

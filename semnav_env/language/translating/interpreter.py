@@ -18,7 +18,7 @@ from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
 from semnav_env.language.translating.defaults import with_defaults
 from semnav_env.language.translating.network import TRAINED_FOLDER, load_translator
 from semnav_env.language.translating.ranking import ranked
-from semnav_env.language.translating.refusal import Refusal
+from semnav_env.language.translating.refusal import Refusal, refused_language
 from semnav_env.language.translating.translator import TranslatedText, Translation, translate
 from semnav_env.language.vocabulary.recognition import language_of_text
 
@@ -74,9 +74,11 @@ class LearnedInterpreter:
         if command := read_canonical(text, spoken):
             check_rooms(command, text, self.rooms)
             return Interpretation(text, command, spoken, "canonical words")
+        if self.language is not None and (error := refused_language(text, spoken)):
+            raise error
         found = translate(text, self.rooms, load_translator(self.folder))
         order = ranked(found, self.folder) if found else []
-        if found and order and self._may_act(*order[0]):
+        if found and order and self._may_act(found, *order[0]):
             likeliest, share = order[0]
             command = with_defaults(likeliest.command, found.support)
             return Interpretation(text, command, spoken, "translator", share)
@@ -86,9 +88,13 @@ class LearnedInterpreter:
             raise question
         raise Refusal(text, spoken, self.rooms, found).error
 
-    def _may_act(self, found: Translation, share: float) -> bool:
-        """Whether a command is likely enough, and no number, side or room is lost on the way."""
-        return share >= self.limits.acting and not found.unsaid
+    def _may_act(self, text: TranslatedText, found: Translation, share: float) -> bool:
+        """Whether a command is likely enough.
+
+        "Do not stop" is never a stop, and of "the first or the second" none is left out.
+        """
+        is_less = bool(found.unsaid) or set(found.command.clauses) == {Stop()}
+        return share >= self.limits.acting and not (is_less and text.support.is_forbidding)
 
     def _stop(self, text: str) -> Interpretation:
         """A stop, in whatever text; its language does not matter."""
@@ -154,4 +160,5 @@ def correct(command: Command, text: str, language: str | Language = "en") -> Com
     Raises:
         CommandError: the text does not correct that command.
     """
-    return parse(f"{command.say(language)}, {text}", language)
+    reader = LearnedInterpreter(language, limits=AskingLimits(acting=AskingLimits.asking))
+    return reader.interpret(f"{command.say(language)}, {text}").command

@@ -50,8 +50,6 @@ class Refusal:
     @property
     def error(self) -> CommandError:
         """Names the word that is at fault, or the nearest command."""
-        if other := self._other_language():
-            return CommandError(self.spoken.say("refused_language", language=other), self.text)
         for phrase, kinds in CAUSES:
             for piece, known in self._words:
                 if known and known <= set(kinds):
@@ -75,11 +73,11 @@ class Refusal:
         return CommandError(problem, self.text, start, length, hint=hint)
 
     def _advice(self, phrase: str, word: str) -> str | None:
+        if phrase in ("refused_word", "refused_room") and self.rooms:
+            return self.spoken.say("rooms_here", rooms=listed(tuple(self.rooms)))
         nearest = nearest_word(word, lexicon_of(self.spoken).words)
         if phrase == "refused_word" and nearest:
             return self.spoken.say("did_you_mean", word=nearest)
-        if phrase in ("refused_word", "refused_room") and self.rooms:
-            return self.spoken.say("rooms_here", rooms=listed(tuple(self.rooms)))
         return self.spoken.say("rooms_unknown") if phrase == "refused_room" else None
 
     def _nearest(self) -> str | None:
@@ -89,10 +87,11 @@ class Refusal:
             return None
         return self.spoken.say("nearest", command=found[0].command.say(self.spoken))
 
-    def _other_language(self) -> str | None:
-        """The name of the language to which all words belong, of which `spoken` has few."""
-        words = [piece.text for piece, _ in self._words if piece.text[0].isalpha()]
-        for language in languages().values():
-            if votes(words, language) == len(words) > 2 * votes(words, self.spoken):
-                return language.name
-        return None
+
+def refused_language(text: str, spoken: Language) -> CommandError | None:
+    """The error for a text that another language knows wholly, and the one asked for does not."""
+    words = [piece.text for piece in pieces(normalise(text, spoken).text) if piece.text.isalpha()]
+    for other in languages().values():
+        if votes(words, other) == len(words) > votes(words, spoken):
+            return CommandError(spoken.say("refused_language", language=other.name), text)
+    return None

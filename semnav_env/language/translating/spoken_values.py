@@ -10,6 +10,7 @@ from rapidfuzz.distance import OSA
 from semnav_env.language.references import Side, to_half_metre
 from semnav_env.language.vocabulary.lexicon import Lexicon
 from semnav_env.language.vocabulary.numerals import read_number
+from semnav_env.language.vocabulary.room_words import ROOM_WORDS
 from semnav_env.language.vocabulary.typos import nearest_word
 
 LONGEST_NAME = 6
@@ -81,10 +82,17 @@ def room_at(
     """The plain name of the room that the words at a place name, and the place behind them."""
     for stop in range(min(len(words), at + LONGEST_NAME), at, -1):
         name = names.get(tuple(words[at:stop]))
-        if name and not _is_number(words[at:stop], lexica):  # "three doors", not "room three"
+        if name and (not _is_number(words[at:stop], lexica) or _is_room_number(words, at, stop)):
             return name, stop
     if words[at].startswith('"') and len(words[at]) > 2:
         return words[at].strip('"'), at + 1
+    if (
+        not names
+        and words[at] in ROOM_WORDS
+        and words[at + 1 : at + 2]
+        and words[at + 1][0].isdigit()
+    ):
+        return words[at + 1], at + 2  # any room is taken where none is known
     return _numbered(words, at, names, lexica) or _misspelt(words, at, names, lexica)
 
 
@@ -130,6 +138,17 @@ def _misspelt(
             ):
                 return plain, stop
     return None
+
+
+def _is_room_number(words: Sequence[str], at: int, stop: int) -> bool:
+    """Whether a number is a room's: "to 3.05", "take me to 214", but not "three doors"."""
+    behind = words[stop : stop + 1]
+    return (
+        stop == at + 1
+        and len(words[at]) > 2
+        and words[at][0].isdigit()
+        and (not behind or not behind[0].isalpha() or behind[0] in ("and", "und", "then", "dann"))
+    )
 
 
 def _is_number(words: Sequence[str], lexica: Sequence[Lexicon]) -> bool:

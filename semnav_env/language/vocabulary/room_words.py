@@ -30,7 +30,7 @@ def _name_phrases(names: tuple[str, ...]) -> Mapping[tuple[str, ...], str]:
     for said, name in spoken_names(names).items():
         words = tuple(piece.text for piece in pieces(said))
         found[words] = name
-        if len(words) == 2 and words[0] in _ROOM_WORDS and words[1][0].isdigit():
+        if len(words) == 2 and words[0] in ROOM_WORDS and words[1][0].isdigit():
             found.setdefault(words[1:], name)
     for words, name in tuple(found.items()):
         for other in _in_other_words(words):
@@ -64,5 +64,5 @@ _KINDS = (
 """Words for one kind of room, in both languages."""
 
 
-_ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
+ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
 """Words that people leave out before a room's number."""

@@ -9,6 +9,7 @@ from semnav_agents.registry import make_agent
 from semnav_env import Rules, SemNavEnv
 from semnav_env.language import (
     SOME,
+    AmbiguousCommandError,
     BackUp,
     Command,
     Distance,
@@ -67,7 +68,7 @@ def test_one_backs_up_by_some(text: str) -> None:
 
 @pytest.mark.parametrize("text", ["turn a bit to the left", "bieg etwas nach links ab"])
 def test_an_amount_of_a_turn_is_no_distance(text: str) -> None:
-    with pytest.raises(ValueError, match="by how much"):
+    with pytest.raises(AmbiguousCommandError):
         parse(text)
 
 

@@ -69,8 +69,7 @@ def test_nobody_backs_up_into_a_wall() -> None:
         ("fahr zwei Meter rückwärts", "back up for 2 metres"),
         ("zwei Meter rückwärts fahren", "back up for 2 metres"),
         ("setz einen Meter zurück", "back up for 1 metre"),
-        ("go back two metres", "turn around and go down the hallway for 2 metres"),
-        ("reverse", "turn around"),
+        ("go back two metres", "back up for 2 metres"),
     ],
 )
 def test_only_a_distance_backwards_is_backed_up(text: str, meant: str) -> None:

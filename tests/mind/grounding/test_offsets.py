@@ -40,14 +40,12 @@ two metres past the second door = hallway until 2 m after door(2)
 go two metres past the second door = hallway until 2 m after door(2)
 stop three metres in front of the second door = hallway until 3 m before door(2); stop
 go until one metre before the end of the hallway = hallway until 1 m before end
-stop a bit before the corner = hallway until some before corner; stop
 turn left two metres after the second door = hallway until 2 m after door(2); turn left
 one metre before the intersection, turn around = hallway until 1 m before intersection; turn around
 halt einen Meter vor der Ecke = hallway until 1 m before corner; stop
 fahr bis zwei Meter hinter die zweite Tür = hallway until 2 m after door(2)
 geh bis einen Meter vor das Ende des Flurs = hallway until 1 m before end
 go past the second door and then two metres further = hallway until 2 m after door(2)
-go five metres to the door = hallway for 5 m; to door(1)
 after three metres, turn left = hallway for 3 m; turn left
 """
 CASES = [tuple(line.split(" = ")) for line in TEXTS.strip().splitlines()]

@@ -229,13 +229,13 @@ def test_of_two_doors_as_straight_behind_none_is_chosen() -> None:
 @pytest.mark.parametrize("until", ["until", "past"])
 def test_a_door_that_is_far_behind_in_a_room_is_far_away(until: str) -> None:
     scene = Scene(corridor(half=3.0).walls, (Door((-3.0, -0.45), (-3.0, 0.45)),))
-    text = f"go down the hallway {until} the door behind you"
+    text = f"go down the hallway {until} the first door behind you"
     assert last_goal(text, scene, (5.0, 0.0, 0.0)).pose[:2] == pytest.approx((-2.0, 0.0), abs=0.05)
 
 
 @pytest.mark.parametrize("until", ["until", "past"])
 def test_one_cannot_go_to_the_doorway_that_one_stands_in(until: str) -> None:
-    text = f"go down the hallway {until} the door behind you"
+    text = f"go down the hallway {until} the first door behind you"
     with pytest.raises(GroundingError, match="one stands in that doorway"):
         last_goal(text, FACING, (3.0, 1.0, QUARTER))
 
@@ -254,7 +254,7 @@ def test_a_doorway_has_no_second_door_behind() -> None:
 
 @pytest.mark.parametrize("nth", ["second", "third", "second-to-last", "third-to-last"])
 def test_no_condition_on_more_than_one_door_opposite_is_met(nth: str) -> None:
-    text = f"go to the first door on the left, if there is a {nth} door opposite, stop, otherwise "
+    text = f"go to the first door on the left, if you see the {nth} door opposite, stop, otherwise "
     goal = last_goal(text + "turn left by 90 degrees", FACING)
     assert isinstance(goal, ReachGoal)
 
