@@ -109,6 +109,11 @@ def test_nonsense_is_refused_without_a_question(text: str) -> None:
         "do not enter the first door on the left",
         "geh nicht durch die erste Tür rechts",
         "go through the first or the second door on the left",
+        "go down the hallway but don't turn left at the intersection",
+        "bieg an der Kreuzung auf keinen Fall links ab",
+        "you must not enter the second door",
+        "go to the end of the hallway without turning left",
+        "stay out of the first room on the left",
     ],
 )
 def test_what_is_forbidden_or_left_to_choose_is_not_done(text: str) -> None:

@@ -78,7 +78,7 @@ class LearnedInterpreter:
             raise error
         found = translate(text, self.rooms, load_translator(self.folder))
         order = ranked(found, self.folder) if found else []
-        if found and order and self._may_act(found, *order[0]):
+        if found and order and self._may_act(found, order[0][1]):
             likeliest, share = order[0]
             command = with_defaults(likeliest.command, found.support)
             return Interpretation(text, command, spoken, "translator", share)
@@ -88,13 +88,12 @@ class LearnedInterpreter:
             raise question
         raise Refusal(text, spoken, self.rooms, found).error
 
-    def _may_act(self, text: TranslatedText, found: Translation, share: float) -> bool:
-        """Whether a command is likely enough.
+    def _may_act(self, text: TranslatedText, share: float) -> bool:
+        """Whether a command is likely enough, and the text neither forbids nor leaves a choice.
 
-        "Do not stop" is never a stop, and of "the first or the second" none is left out.
+        The translator often takes the forbidden thing, or one of two, for the wanted one.
         """
-        is_less = bool(found.unsaid) or set(found.command.clauses) == {Stop()}
-        return share >= self.limits.acting and not (is_less and text.support.is_forbidding)
+        return share >= self.limits.acting and not text.support.leaves_open
 
     def _stop(self, text: str) -> Interpretation:
         """A stop, in whatever text; its language does not matter."""

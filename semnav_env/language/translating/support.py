@@ -87,6 +87,22 @@ class TextSupport:
         """Whether they forbid something, or leave a choice."""
         return not self.classes.isdisjoint(FORBIDDING)
 
+    @cached_property
+    def leaves_open(self) -> bool:
+        """Whether they forbid something or leave a choice, and name nothing instead behind it.
+
+        What is not there in a condition ("if you do not see a door") is not forbidden.
+        """
+        places = [
+            (at, kind)
+            for at in range(len(self.words))
+            for kind, _, _ in self.lexicon.matches(self.words, at)
+        ]
+        instead = max((at for at, kind in places if kind == "but"), default=-1)
+        case = min((at for at, kind in places if kind == "if"), default=len(self.words))
+        forbids = any(kind == "not" and instead < at < case for at, kind in places)
+        return forbids or any(kind == "or" for _, kind in places)
+
     def speaks_of(self, command: Command) -> bool:
         """Whether a command has something to do, of all of which the text speaks."""
         idle = all(
