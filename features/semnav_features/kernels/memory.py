@@ -73,6 +73,9 @@ shorter."""
 JAMB_DEPTH = 0.15
 """Distance from the opening at which a jamb is looked at, metres."""
 
+NEAR_DOORWAY = 1.0
+"""Distance from the middle of a door within which a view does not judge its jambs, metres."""
+
 MAX_END_OFFSET = SAME_LINE_OFFSET + 0.1 * SAME_LINE_GAP
 """A wall is not on a line if both of its ends lie farther than this to one side of it, metres. The
 middle of the gap, where the offset counts, may lie half the gap beyond an end, at 8 degrees."""
@@ -201,7 +204,10 @@ def jambs_of(door: Ends) -> tuple[Point, Point]:
 
 @kernel
 def forget_passed(memory: Memory) -> None:
-    """Forget short walls, and doors, where the newest view passes: they moved on."""
+    """Forget short walls, and doors, where the newest view passes: they moved on.
+
+    A view from within a doorway tells nothing of its jambs: it looks along the wall.
+    """
     walls, doors, state, views = memory
     used, seen = state[0], views[0]
     newest = (used.views - 1) % VIEWS
@@ -217,7 +223,9 @@ def forget_passed(memory: Memory) -> None:
             walls[HITS, k] = 0.0
     for k in range(used.doors):
         door = doors[k]
-        if door.log_odds <= 0.0:
+        x = 0.5 * (door.start_x + door.end_x) - seen.places[newest, 0]
+        y = 0.5 * (door.start_y + door.end_y) - seen.places[newest, 1]
+        if door.log_odds <= 0.0 or x * x + y * y < NEAR_DOORWAY**2:
             continue
         first, last = jambs_of((door.start_x, door.start_y, door.end_x, door.end_y))
         if (
