@@ -26,8 +26,8 @@ NEEDED = {
 """For each thing that a command names, the classes of phrases of which a text must have one."""
 
 FORBIDDING = ("not", "or")
-"""Classes of phrases that prevent a question: the translator often takes a forbidden thing, or one
-of two things, for the wanted one."""
+"""Classes of phrases that forbid something or leave a choice: the translator often takes the
+forbidden thing, or one of two, for the wanted one."""
 
 UNCOVERING = ("beyond", "greeting", "aside")
 """Classes of phrases that do not explain a word for something that no robot can do or see."""
