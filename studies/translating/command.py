@@ -1,20 +1,36 @@
-"""`python -m studies translator`: train the translator."""
+"""`python -m studies translator`: train the translator.
+
+Four teachers learn first, each without a quarter of the authors. The translator learns from all
+authors and from what the teachers say together. What a teacher makes of the authors whom it does
+not know is what `python -m studies ranker` learns from.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field
-from itertools import islice
+from itertools import groupby, islice
 from pathlib import Path
 
 import numpy as np
 
-from semnav_env.language.translating.network import TRAINED_FOLDER
+from semnav_env.language.translating.network import (
+    TRAINED_FOLDER,
+    TranslatorNetwork,
+    load_translator,
+)
 from semnav_env.networks.card import CARD_FILE, Card
 from semnav_env.networks.weights import save_weights
-from studies.corpora import learned_corpora
-from studies.translating.texts import authored, disturbed, generated, of_episodes
-from studies.translating.training import TranslatorTraining, trained
+from studies.corpora import author_of, learned_corpora
+from studies.translating.texts import TrainingText, authored, disturbed, generated, of_episodes
+from studies.translating.training import TranslatorTraining, arrays_of, trained
+
+QUARTERS = range(4)
+
+TEACHERS_FOLDER = Path("out/teachers")
+
+FIRST_STRANGER = 11
+"""The first author with whose texts the lexicon was not written; all teachers know those before."""
 
 
 @dataclass(frozen=True)
@@ -22,28 +38,59 @@ class Recipe:
     """What a translator learns from, beside the commands of the split for training.
 
     Attributes:
-        generated: paraphrases of the generator.
-        disturbed: variants of people's texts.
+        variants: of each text of an author.
+        generated: paraphrases of the generator for each author, half of them of the commands that
+            the author wrote.
         seed: of the texts, the weights and the order.
         training: of the network.
     """
 
-    generated: int = 16000
-    disturbed: int = 96000
+    variants: int = 12
+    generated: int = 1200
     seed: int = 0
     training: TranslatorTraining = field(default_factory=TranslatorTraining)
 
-    def train(self, corpora: Sequence[Path], out: Path) -> None:
+    def train(
+        self, corpora: Sequence[Path], out: Path, teachers: Sequence[TranslatorNetwork] = ()
+    ) -> None:
         """Train a translator on the texts of corpora, and write its files to a folder."""
-        known = [text for path in corpora for text in authored(path)]
-        written = generated(known, self.generated, np.random.default_rng(self.seed))
-        varied = disturbed(known, self.disturbed, np.random.default_rng(self.seed))
-        texts = [*islice(written, self.generated), *of_episodes("train"), *varied]
-        network = trained(texts, self.training, self.seed)
+        texts = arrays_of(self.texts(corpora), self.training.shape)
+        network = trained(texts, self.training, self.seed, teachers)
         preset = asdict(self) | {"corpora": [path.name for path in corpora]}
         halves = {name: array.astype(np.float16) for name, array in network.tensors.items()}
         save_weights(out, halves)
         Card(network.shape, preset, self.seed).write(out)
+
+    def texts(self, corpora: Sequence[Path]) -> Iterator[TrainingText]:
+        """All texts from which the network learns."""
+        yield from of_episodes("train")
+        for author, paths in groupby(sorted(corpora), key=author_of):
+            yield from self.of_author(author, [text for path in paths for text in authored(path)])
+
+    def of_author(self, author: int, known: Sequence[TrainingText]) -> Iterator[TrainingText]:
+        """Variants of the texts of an author, and the generator's."""
+        varied, written = (np.random.default_rng([self.seed, author, k]) for k in range(2))
+        yield from disturbed(known, self.variants * len(known), varied)
+        yield from islice(generated(known, self.generated, written), self.generated)
+
+
+def strangers(quarter: int) -> tuple[Path, ...]:
+    """The files of the authors whom the teacher of a quarter does not know."""
+    return tuple(
+        each
+        for each in learned_corpora()
+        if author_of(each) >= FIRST_STRANGER and author_of(each) % len(QUARTERS) == quarter
+    )
+
+
+def teachers_in(folder: Path, recipe: Recipe) -> list[Path]:
+    """The folders of the four teachers; those that are not there are trained first."""
+    folders = [folder / str(quarter) for quarter in QUARTERS]
+    for quarter, each in zip(QUARTERS, folders, strict=True):
+        if not (each / CARD_FILE).exists():
+            known = [path for path in learned_corpora() if path not in strangers(quarter)]
+            recipe.train(known, each)
+    return folders
 
 
 @dataclass(frozen=True)
@@ -52,14 +99,17 @@ class Arguments:
 
     Attributes:
         out: folder to which the files are written; by default that of the package.
-        recipe: what it learns from.
+        teachers: folder of the teachers; those that are not there are trained first.
+        recipe: what teachers and translator learn from.
     """
 
     out: Path = TRAINED_FOLDER
+    teachers: Path = TEACHERS_FOLDER
     recipe: Recipe = field(default_factory=Recipe)
 
     def run(self) -> int:
         """Train it."""
-        self.recipe.train(learned_corpora(), self.out)
+        teachers = [load_translator(each) for each in teachers_in(self.teachers, self.recipe)]
+        self.recipe.train(learned_corpora(), self.out, teachers)
         print(f"wrote {self.out / CARD_FILE}")
         return 0

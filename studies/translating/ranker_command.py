@@ -11,20 +11,17 @@ from pathlib import Path
 from semnav_env.language.translating.interpreter import AskingLimits
 from semnav_env.language.translating.network import TRAINED_FOLDER
 from semnav_env.language.translating.ranking import RANKER_FILE
-from semnav_env.networks.card import CARD_FILE
 from semnav_features.writing import write_file
-from studies.corpora import author_of, learned_corpora
-from studies.translating.command import Recipe
+from studies.translating.command import (
+    QUARTERS,
+    TEACHERS_FOLDER,
+    Recipe,
+    strangers,
+    teachers_in,
+)
 from studies.translating.ranker import RankedText, learned, paraphrased, ranked_texts, shares_of
-from studies.translating.training import TranslatorTraining
 
-FIRST_STRANGER = 11
-"""The first author with whose texts the lexicon was not written."""
-
-LIGHTER = Recipe(disturbed=64000, training=TranslatorTraining(steps=10000))
-"""What its translator learns from: less than the bundled one, as it knows fewer authors."""
-
-PARAPHRASES = 400
+PARAPHRASES = 200
 """Of the generator, from which the ranker learns, too."""
 
 ACTING = (0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95)
@@ -33,28 +30,31 @@ ACTING = (0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95)
 
 @dataclass(frozen=True)
 class Arguments:
-    """Learn the weights of the ranker from texts whose authors the translator does not know.
+    """Learn the weights of the ranker from texts whose authors their translator does not know.
 
-    A translator learns without every second author, and translates their texts. The table is of
-    weights that were learned from half of these authors and asked about the others; the weights
-    that are written were learned from all of them.
+    Each teacher translates the texts of the quarter of the authors whom it does not know. The table
+    is of weights that were learned from half of the quarters and asked about the others; the
+    weights that are written were learned from all.
 
     Attributes:
-        folder: of the translator; one that is there is not trained again.
+        teachers: folder of the teachers, see `python -m studies translator`.
         out: folder to which the weights are written; by default that of the package.
-        recipe: what the translator learns from.
+        recipe: what teachers that are not there learn from.
     """
 
-    folder: Path = Path("out/half")
+    teachers: Path = TEACHERS_FOLDER
     out: Path = TRAINED_FOLDER
-    recipe: Recipe = field(default_factory=lambda: LIGHTER)
+    recipe: Recipe = field(default_factory=Recipe)
 
     def run(self) -> int:
         """Learn and write the weights."""
-        if not (self.folder / CARD_FILE).exists():
-            known = [each for each in learned_corpora() if each not in strangers()]
-            self.recipe.train(known, self.folder)
-        halves = [self._texts(number) for number in range(2)]
+        quarters = [
+            self._texts(quarter, folder)
+            for quarter, folder in zip(
+                QUARTERS, teachers_in(self.teachers, self.recipe), strict=True
+            )
+        ]
+        halves = [quarters[0] + quarters[1], quarters[2] + quarters[3]]
         crossed = [
             (text, shares_of(text, weights))
             for known, asked in (halves, reversed(halves))
@@ -68,17 +68,10 @@ class Arguments:
         print(f"wrote {self.out / RANKER_FILE}")
         return 0
 
-    def _texts(self, number: int) -> list[RankedText]:
-        """The texts of every second stranger, and paraphrases, as the translator takes them."""
-        paths = strangers()[number * 2 :: 4], strangers()[number * 2 + 1 :: 4]
-        said = [t for each in paths for path in each for t in ranked_texts(path, self.folder)]
-        return [*said, *paraphrased(PARAPHRASES, self.folder, number)]
-
-
-def strangers() -> tuple[Path, ...]:
-    """The files of the authors whom the translator of the ranker does not know."""
-    known = (each for each in learned_corpora() if author_of(each) >= FIRST_STRANGER)
-    return tuple(each for each in known if author_of(each) % 2)
+    def _texts(self, quarter: int, folder: Path) -> list[RankedText]:
+        """The texts of strangers, and paraphrases, as their teacher takes them."""
+        said = [text for path in strangers(quarter) for text in ranked_texts(path, folder)]
+        return [*said, *paraphrased(PARAPHRASES, folder, quarter)]
 
 
 def _show(language: str, texts: Sequence[tuple[RankedText, Iterable[float]]]) -> None:

@@ -51,6 +51,12 @@ def _drawn(phrase: str, table: dict[str, list[str]], rng: np.random.Generator) -
     return phrase
 
 
+def drawn_phrase(kind: str, code: str, rng: np.random.Generator) -> str:
+    """A phrase of a class in a language."""
+    table = _table(language_of(code).name)
+    return _drawn(table[kind][int(rng.integers(len(table[kind])))], table, rng)
+
+
 def with_synonyms(text: str, code: str, rng: np.random.Generator) -> str:
     """A text in which phrases of one meaning are swapped for others of their class.
 

@@ -34,6 +34,7 @@ from semnav_env.language.rewording import paraphrases
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.sampling import sample_command
 from studies.speech.robustness import FILLERS, PUNCTUATION
+from studies.translating.corrections import with_correction
 from studies.translating.infeasible import infeasible
 from studies.translating.programs import command_of_meaning
 from studies.translating.synonyms import with_synonyms
@@ -158,7 +159,7 @@ def disturbed(
     """Variants of texts: two in one, fillers, no punctuation, slips of the pen, left for right."""
     by_language = {code: [t for t in known if t.language == code] for code in FILLERS}
     for number in range(count):
-        base = known[number % len(known)]
+        base = _with_one_meaning(known[number % len(known)], rng)
         others = by_language[base.language]
         while rng.random() < JOINED:
             base = joined(base, others[int(rng.integers(len(others)))], rng) or base
@@ -166,6 +167,13 @@ def disturbed(
             if rng.random() < share and _is_readable(base.text):
                 base = change(base, rng)
         yield base
+
+
+def _with_one_meaning(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    """The text with one of the commands that it may mean, each as often as the others."""
+    if len(text.commands) < 2:
+        return text
+    return replace(text, commands=(text.commands[int(rng.integers(len(text.commands)))],))
 
 
 def joined(
@@ -193,6 +201,11 @@ def _with_filler(text: TrainingText, rng: np.random.Generator) -> TrainingText:
 
 def _with_synonyms(text: TrainingText, rng: np.random.Generator) -> TrainingText:
     return replace(text, text=with_synonyms(text.text, text.language, rng))
+
+
+def _with_correction(text: TrainingText, rng: np.random.Generator) -> TrainingText:
+    changed = with_correction(text.text, text.language, rng)
+    return text if changed is None else replace(text, text=changed)
 
 
 def _infeasible(text: TrainingText, rng: np.random.Generator) -> TrainingText:
@@ -263,6 +276,7 @@ def _without_room(text: TrainingText, rng: np.random.Generator) -> TrainingText:
 CHANGES: tuple[tuple[float, Callable[[TrainingText, np.random.Generator], TrainingText]], ...] = (
     (0.3, _mirrored),
     (0.5, _with_synonyms),
+    (0.06, _with_correction),
     (0.04, _infeasible),
     (0.06, _without_room),
     (0.3, _with_filler),

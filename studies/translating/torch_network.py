@@ -8,6 +8,7 @@ from torch.nn import functional
 
 from semnav_agents.networks.torch_network import TorchNetwork
 from semnav_env.language.translating.network import TranslatorShape, positions
+from studies.translating.arrays import Bags, TextBatch
 
 LONGEST_TEXT = 320
 """The most words of a text, and symbols of a command, that have a position."""
@@ -16,56 +17,45 @@ LONGEST_TEXT = 320
 class TorchTranslator(TorchNetwork):
     """The network, with the parameters of `TranslatorShape.tensors`."""
 
+    places: Tensor
+
     def __init__(self, shape: TranslatorShape, seed: int, dropout: float) -> None:
         super().__init__(shape.tensors(), _normal, seed)
         self.shape, self.dropout = shape, dropout
-        self.places = torch.from_numpy(positions(LONGEST_TEXT, shape.width))
+        self.register_buffer("places", torch.from_numpy(positions(LONGEST_TEXT, shape.width)))
 
-    def forward(
-        self,
-        grams: Tensor,
-        shares: Tensor,
-        words: Tensor,
-        kinds: Tensor,
-        portions: Tensor,
-        classed: Tensor,
-        seen: Tensor,
-        marks: Tensor,
-        mask: Tensor,
-        said: Tensor,
-    ) -> Tensor:
+    def forward(self, batch: TextBatch, seen: Tensor, said: Tensor) -> Tensor:
         """Scores of the next symbol behind each symbol, shape (b, s, symbols).
 
         Args:
-            grams: rows of the table of each of u different words, shape (u, g).
-            shares: weight of each of them, 0 for none, shape (u, g).
-            words: which of the u words, shape (b, n).
-            kinds: rows of the table of each of v different sets of classes, shape (v, c).
-            portions: weight of each of them, 0 for none, shape (v, c).
-            classed: which of the v sets, shape (b, n).
-            seen: 1 for words that are seen, 0 for those of which only the mark is, shape (b, n).
-            marks: shape (b, n).
-            mask: which words there are, shape (b, n).
+            batch: b texts.
+            seen: which words are seen; of the others only the mark is, shape (b, n).
             said: symbols so far, shape (b, s).
         """
-        spelt = functional.embedding(words, self._bagged("grams", grams, shares))
-        x = spelt * seen[..., None]
-        x = x + functional.embedding(classed, self._bagged("classes", kinds, portions))
-        x = self._drop(x + self.of("marks")[marks] + self.places[: words.shape[1]])
+        x = self._means("grams", batch.grams) * seen[..., None]
+        x = x + self._means("classes", batch.kinds)
+        x = x + self._rows("marks", batch.marks)
+        x = self._drop(x + self.places[: x.shape[1]])
         for k in range(self.shape.layers):
-            x = x + self._attend(f"encode.{k}.self", x, None, mask)
+            x = x + self._attend(f"encode.{k}.self", x, None, batch.mask)
             x = x + self._feed(f"encode.{k}.feed", x)
         encoded = self.norm("encoded", x)
-        y = self._drop(self.of("symbols")[said] + self.places[: said.shape[1]])
-        for k in range(self.shape.layers):
+        y = self._drop(self._rows("symbols", said) + self.places[: said.shape[1]])
+        for k in range(self.shape.said_layers):
             y = y + self._attend(f"decode.{k}.self", y, None, None)
-            y = y + self._attend(f"decode.{k}.cross", y, encoded, mask)
+            y = y + self._attend(f"decode.{k}.cross", y, encoded, batch.mask)
             y = y + self._feed(f"decode.{k}.feed", y)
         return self.linear("say", self.norm("decoded", y))
 
-    def _bagged(self, name: str, rows: Tensor, shares: Tensor) -> Tensor:
-        """Weighted sums of rows of a table."""
-        return functional.embedding_bag(rows, self.of(name), per_sample_weights=shares, mode="sum")
+    def _means(self, name: str, bags: Bags) -> Tensor:
+        """Weighted means of rows of a table, for each word, shape (b, n, width)."""
+        means = torch.einsum("ugd,ug->ud", self._rows(name, bags.rows), bags.shares)
+        return means.index_select(0, bags.which.flatten()).view(*bags.which.shape, -1)
+
+    def _rows(self, name: str, rows: Tensor) -> Tensor:
+        """Rows of a table."""
+        found = self.of(name).index_select(0, rows.flatten())
+        return found.view(*rows.shape, -1)
 
     def _attend(self, name: str, x: Tensor, other: Tensor | None, mask: Tensor | None) -> Tensor:
         heads = self.shape.heads

@@ -1,37 +1,37 @@
-"""Trains the translator's network on texts, on processors, the same for the same seed."""
+"""Trains the translator's network on texts; on processors the same for the same seed.
+
+A network may also learn from others that have learned already, its teachers: what they say of a
+text together is a better measure of what it may mean than the one command that an author wrote
+(Hinton et al. 2015).
+"""
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 import torch
+from torch import Tensor
 from torch.nn import functional
 
-from semnav_env.language.errors import CommandError
-from semnav_env.language.translating.masking import NO_MARK, masked
-from semnav_env.language.translating.network import (
-    MAX_SYMBOLS,
-    TranslatorNetwork,
-    TranslatorShape,
-    grams_of,
-    rows_of_classes,
-)
-from semnav_env.language.translating.programs import (
-    END,
-    REFUSE,
-    START,
-    SYMBOLS,
-    UnsayableError,
-    symbols_of,
-)
+from semnav_env.language.translating.masking import NO_MARK
+from semnav_env.language.translating.network import TranslatorNetwork, TranslatorShape
 from semnav_features.checked_fields import Count, check_fields
+from studies.translating.arrays import UNSAID, TextArrays, TextBatch, encoded
 from studies.translating.texts import TrainingText
 from studies.translating.torch_network import TorchTranslator
+
+LENGTHS = 8
+"""Into so many sets of about the same length the texts are parted; a batch is from one."""
+
+OWN = 0.3
+"""Share of the authors' own meanings in what is learned, where there are teachers."""
+
+SHOWN = 500
+"""Steps between two lines of the log."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +47,7 @@ class TranslatorTraining:
         word_dropout: share of the words of which only the mark is seen.
         value_dropout: the same of words with a mark.
         shape: of the network.
+        device: "cpu", or "cuda" for a graphics processor.
     """
 
     steps: Count = 16000
@@ -56,45 +57,23 @@ class TranslatorTraining:
     dropout: float = 0.12
     word_dropout: float = 0.12
     value_dropout: float = 0.6
-    shape: TranslatorShape = field(default_factory=lambda: TranslatorShape(128, 4, 3, 384))
+    shape: TranslatorShape = field(default_factory=lambda: TranslatorShape(192, 6, 4, 576))
+    device: str = "cpu"
 
     def __post_init__(self) -> None:
         check_fields(self)
 
 
-@dataclass(frozen=True)
-class EncodedText:
-    """A text as numbers.
-
-    Attributes:
-        words: of the text.
-        marks: of each word.
-        symbols: numbers of what is to be said, with its start and end.
-    """
-
-    words: tuple[str, ...]
-    marks: tuple[int, ...]
-    classes: tuple[tuple[int, ...], ...]
-    symbols: tuple[int, ...]
-
-
-def encoded(text: TrainingText, shape: TranslatorShape) -> EncodedText | None:
-    """A text as numbers; None if what it means cannot be said."""
-    try:
-        plain = masked(text.text, text.rooms)
-        said = symbols_of(text.commands[0], plain) if text.commands else (REFUSE,)
-    except (CommandError, UnsayableError):
-        return None
-    if len(said) >= MAX_SYMBOLS or not plain.words:
-        return None
-    rows = tuple(rows_of_classes(names, shape.classes) for names in plain.classes)
-    return EncodedText(
-        plain.words, plain.marks, rows, tuple(map(SYMBOLS.index, (START, *said, END)))
-    )
+def arrays_of(texts: Iterable[TrainingText], shape: TranslatorShape) -> TextArrays:
+    """The texts whose meaning can be said, as arrays."""
+    return TextArrays.of([each for t in texts if (each := encoded(t)) is not None], shape)
 
 
 def trained(
-    texts: Sequence[TrainingText], settings: TranslatorTraining, seed: int
+    texts: TextArrays,
+    settings: TranslatorTraining,
+    seed: int,
+    teachers: Sequence[TranslatorNetwork] = (),
 ) -> TranslatorNetwork:
     """A network that translates the texts.
 
@@ -102,94 +81,142 @@ def trained(
         texts: drawn from at random.
         settings: of the training.
         seed: of the weights and of what is drawn.
+        teachers: networks whose probabilities are learned beside the texts' own meanings.
     """
-    known = [each for t in texts if (each := encoded(t, settings.shape)) is not None]
     torch.set_num_threads(1)  # a small network is slower with more, and its sums may differ
     torch.manual_seed(seed)
-    model = TorchTranslator(settings.shape, seed, settings.dropout)
-    optimizer = torch.optim.AdamW(model.parameters(), lr=settings.rate, betas=(0.9, 0.98))
-    start, total = time.monotonic(), 0.0
-    batches = _batches(known, settings, np.random.default_rng(seed))
-    for step in range(settings.steps):
-        for group in optimizer.param_groups:
-            group["lr"] = settings.rate * _pace(step, settings)
-        loss = _loss(model, next(batches))
-        optimizer.zero_grad()
-        loss.backward()  # type: ignore[no-untyped-call]
-        torch.nn.utils.clip_grad_norm_(model.parameters(), 1.0)
-        optimizer.step()
-        total += loss.item()
-        if step % 250 == 249:
+    device = settings.device
+    torch.backends.cuda.matmul.allow_tf32 = True
+    model = TorchTranslator(settings.shape, seed, settings.dropout).to(device)
+    known = [_teacher(each).to(device) for each in teachers]
+    descent = _Descent(model, known, texts.to(device), settings)
+    start, losses = time.monotonic(), torch.zeros((), device=device)
+    for step, (numbers, words, symbols) in enumerate(_draws(texts, settings, seed), 1):
+        losses += descent.step(numbers.to(device), words, symbols, _pace(step, settings))
+        if step % SHOWN == 0:
             took = time.monotonic() - start
-            print(f"step {step + 1}: loss {total / 250:.3f}, {took:.0f} s", flush=True)
-            total = 0.0
-    return TranslatorNetwork(settings.shape, model.arrays())
+            print(f"step {step}: loss {losses.item() / SHOWN:.3f}, {took:.0f} s", flush=True)
+            losses.zero_()
+    return TranslatorNetwork(settings.shape, model.cpu().arrays())
+
+
+def _teacher(network: TranslatorNetwork) -> TorchTranslator:
+    model = TorchTranslator(network.shape, 0, 0.0)
+    with torch.no_grad():
+        for name, tensor in model.named().items():
+            tensor.copy_(torch.from_numpy(network.tensors[name]))
+    return model.eval().requires_grad_(False)
+
+
+def _draws(
+    texts: TextArrays, settings: TranslatorTraining, seed: int
+) -> Iterator[tuple[Tensor, int, int]]:
+    """For each step the numbers of texts of similar length, with their most words and symbols."""
+    rng = np.random.default_rng(seed)
+    lengths, said = (np.diff(each.numpy()) for each in (texts.first_words, texts.first_symbols))
+    sets = np.array_split(np.argsort(lengths + said, kind="stable"), LENGTHS)
+    limits = [(int(lengths[each].max()), int(said[each].max())) for each in sets]
+    for _ in range(settings.steps):
+        k = int(rng.integers(LENGTHS))
+        yield torch.from_numpy(rng.choice(sets[k], settings.batch)), *limits[k]
 
 
 def _pace(step: int, settings: TranslatorTraining) -> float:
-    if step < settings.warm_up:
-        return (step + 1) / settings.warm_up
+    """The learning rate of a step."""
+    if step <= settings.warm_up:
+        return settings.rate * step / settings.warm_up
     done = (step - settings.warm_up) / (settings.steps - settings.warm_up)
-    return 0.5 * (1.0 + math.cos(math.pi * done))
+    return settings.rate * 0.5 * (1.0 + math.cos(math.pi * done))
 
 
-def _loss(model: TorchTranslator, batch: tuple[torch.Tensor, ...]) -> torch.Tensor:
-    *inputs, said = batch
-    scores = model(*inputs, said[:, :-1].clamp(min=0))
-    return functional.cross_entropy(scores.flatten(0, 1), said[:, 1:].flatten(), ignore_index=-1)
+class _Descent:
+    """Steps of gradient descent.
 
-
-def _batches(
-    known: Sequence[EncodedText], settings: TranslatorTraining, rng: np.random.Generator
-) -> Iterator[tuple[torch.Tensor, ...]]:
-    """Batches of texts of similar length, without end."""
-    lengths = np.array([len(each.marks) for each in known])
-    pool = settings.batch * 16
-    while True:
-        drawn = rng.integers(len(known), size=pool)
-        drawn = drawn[np.argsort(lengths[drawn], kind="stable")]
-        for first in rng.permutation(np.arange(0, pool, settings.batch)):
-            yield _tensors([known[k] for k in drawn[first : first + settings.batch]], settings, rng)
-
-
-def _tensors(
-    texts: Sequence[EncodedText], settings: TranslatorTraining, rng: np.random.Generator
-) -> tuple[torch.Tensor, ...]:
-    b, n = len(texts), max(len(each.marks) for each in texts)
-    shape = settings.shape
-    grams, words = _bags(
-        [[(w, grams_of(w, shape.buckets)) for w in each.words] for each in texts], n
-    )
-    kinds, classed = _bags([[(row, row) for row in each.classes] for each in texts], n)
-    marks = np.zeros((b, n), np.int64)
-    said = np.full((b, max(len(each.symbols) for each in texts)), -1)
-    for i, each in enumerate(texts):
-        marks[i, : len(each.marks)] = each.marks
-        said[i, : len(each.symbols)] = each.symbols
-    limits = np.where(marks == NO_MARK, settings.word_dropout, settings.value_dropout)
-    seen = (rng.random(marks.shape) >= limits).astype(np.float32)
-    mask = np.arange(n) < np.array([len(each.marks) for each in texts])[:, None]
-    arrays = (*grams, words, *kinds, classed, seen, marks, mask, said)
-    return tuple(map(torch.from_numpy, arrays))
-
-
-def _bags(
-    texts: Sequence[Sequence[tuple[Hashable, tuple[int, ...]]]], n: int
-) -> tuple[tuple[Any, Any], Any]:
-    """The different bags of rows, with the weight of each row, and which bag each word has.
-
-    Args:
-        texts: of each word what it is, and its rows.
-        n: words of the longest text.
+    On a graphics processor the work of a step is recorded once for each shape of a batch and then
+    played back, as it takes longer to start its many small parts than to do them.
     """
-    rows: dict[Hashable, tuple[int, ...]] = {key: bag for each in texts for key, bag in each}
-    places = {key: k for k, key in enumerate(rows)}
-    table = np.zeros((len(rows), max(map(len, rows.values()))), np.int64)
-    shares = np.zeros(table.shape, np.float32)
-    for k, bag in enumerate(rows.values()):
-        table[k, : len(bag)] = bag
-        shares[k, : len(bag)] = 1.0 / len(bag)
-    which = np.zeros((len(texts), n), np.int64)
-    for i, each in enumerate(texts):
-        which[i, : len(each)] = [places[key] for key, _ in each]
-    return (table, shares), which
+
+    def __init__(
+        self,
+        model: TorchTranslator,
+        teachers: Sequence[TorchTranslator],
+        texts: TextArrays,
+        settings: TranslatorTraining,
+    ) -> None:
+        self._model, self._teachers, self._texts, self._settings = model, teachers, texts, settings
+        on_cuda = settings.device != "cpu"
+        self._rate = torch.tensor(0.0, device=settings.device)
+        self._optimizer = torch.optim.AdamW(
+            model.parameters(),
+            lr=self._rate,
+            betas=(0.9, 0.98),
+            capturable=on_cuda,
+            foreach=on_cuda,
+        )
+        self._numbers = torch.zeros(settings.batch, dtype=torch.int64, device=settings.device)
+        self._memory = torch.cuda.graph_pool_handle() if on_cuda else None
+        self._recorded: dict[tuple[int, int], Callable[[], Tensor]] = {}
+
+    def step(self, numbers: Tensor, words: int, symbols: int, rate: float) -> Tensor:
+        """Go down once; the loss before.
+
+        Args:
+            numbers: of the texts, shape (batch,).
+            words: most of a text.
+            symbols: most of a command.
+            rate: the learning rate.
+        """
+        self._numbers.copy_(numbers)
+        self._rate.fill_(rate)
+        if self._memory is None:
+            return self._descend(words, symbols)
+        if (words, symbols) not in self._recorded:
+            self._recorded[words, symbols] = self._record(words, symbols)
+        return self._recorded[words, symbols]()
+
+    def _record(self, words: int, symbols: int) -> Callable[[], Tensor]:
+        aside = torch.cuda.Stream()  # type: ignore[no-untyped-call]
+        aside.wait_stream(torch.cuda.current_stream())
+        with torch.cuda.stream(aside):
+            for _ in range(3):
+                self._descend(words, symbols)
+        torch.cuda.current_stream().wait_stream(aside)
+        graph = torch.cuda.CUDAGraph()
+        with torch.cuda.graph(graph, pool=self._memory):
+            loss = self._descend(words, symbols)
+
+        def play() -> Tensor:
+            graph.replay()
+            return loss
+
+        return play
+
+    def _descend(self, words: int, symbols: int) -> Tensor:
+        batch = self._texts.batch(self._numbers, words, symbols)
+        self._optimizer.zero_grad(set_to_none=True)
+        loss = self._loss(batch)
+        loss.backward()  # type: ignore[no-untyped-call]
+        torch.nn.utils.clip_grad_norm_(self._model.parameters(), 1.0)
+        self._optimizer.step()
+        return loss.detach()
+
+    def _loss(self, batch: TextBatch) -> Tensor:
+        said, wanted = batch.symbols[:, :-1].clamp(min=0), batch.symbols[:, 1:]
+        limits = torch.where(
+            batch.marks == NO_MARK, self._settings.word_dropout, self._settings.value_dropout
+        )
+        seen = torch.rand(batch.marks.shape, device=limits.device) >= limits
+        scores = self._model(batch, seen, said)
+        own: Tensor = functional.cross_entropy(
+            scores.flatten(0, 1), wanted.flatten(), ignore_index=UNSAID
+        )
+        if not self._teachers:
+            return own
+        with torch.no_grad():
+            all_seen = torch.ones_like(seen)
+            shares = [each(batch, all_seen, said).softmax(dim=2) for each in self._teachers]
+            taught = torch.stack(shares).mean(dim=0)
+        missed = -(taught * scores.log_softmax(dim=2)).sum(dim=2)
+        counts = wanted != UNSAID
+        loss: Tensor = OWN * own + (1.0 - OWN) * (missed * counts).sum() / counts.sum()
+        return loss

@@ -6,6 +6,7 @@ from hypothesis import given
 
 from semnav_agents.networks.bundled import BUNDLED_FOLDER
 from semnav_env.language import Command, CommandError, parse
+from semnav_env.language.canonical import read
 from semnav_env.language.command import room_of
 from semnav_env.language.corpora.meanings import key_of
 from semnav_env.language.references import Side
@@ -16,7 +17,6 @@ from semnav_env.language.translating.network import (
     TranslatorNetwork,
     TranslatorShape,
     load_translator,
-    rows_of_classes,
 )
 from semnav_env.language.translating.programs import (
     SYMBOLS,
@@ -80,22 +80,36 @@ def test_symbols_that_are_no_command_are_refused(symbols: tuple[str, ...]) -> No
         command_of(symbols, masked("go", ()))
 
 
+def test_a_side_that_was_not_said_may_be_either() -> None:
+    text = masked("turn ninety degrees", ())
+    for side in ("left", "right"):
+        command = read(f"turn {side} by 90 degrees")
+        assert command_of(symbols_of(command, text), text) == command
+        assert sayable(text)[SYMBOLS.index(side)]
+
+
+def test_where_a_side_was_said_no_other_can_be() -> None:
+    text = masked("turn left ninety degrees", ())
+    with pytest.raises(UnsayableError):
+        symbols_of(read("turn right by 90 degrees"), text)
+    assert not any(sayable(text)[SYMBOLS.index(side)] for side in ("left", "right"))
+
+
 def test_the_network_says_the_same_as_that_of_torch() -> None:
     torch = pytest.importorskip("torch")
+    from studies.translating.arrays import EncodedText, TextArrays
     from studies.translating.torch_network import TorchTranslator
-    from studies.translating.training import EncodedText, TranslatorTraining, _tensors
 
-    shape = TranslatorShape(width=8, heads=2, layers=2, hidden=16, buckets=64, classes=32)
+    shape = TranslatorShape(8, 2, 2, 16, said_layers=1, buckets=64, classes=32)
     model = TorchTranslator(shape, 0, 0.0).eval()
-    settings = TranslatorTraining(shape=shape, word_dropout=0.0, value_dropout=0.0)
     kinds = (("verb go",), ("prep past", "det"), ("det",), ("ordinal",), ("noun door",))
-    rows = tuple(rows_of_classes(each, shape.classes) for each in kinds)
     words = ("go", "past", "the", "third", "door")
-    text = EncodedText(words, (0, 0, 0, 1, 0), rows, (0, 5, 9, 1))
-    longer = EncodedText(("turn",) * 9, (0,) * 9, rows[:1] * 9, (0, 7, 1))
-    batch = _tensors([text, longer], settings, np.random.default_rng(0))
+    text = EncodedText(words, (0, 0, 0, 1, 0), kinds, (0, 5, 9, 1))
+    longer = EncodedText(("turn",) * 9, (0,) * 9, kinds[:1] * 9, (0, 7, 1))
+    batch = TextArrays.of([text, longer], shape).batch(torch.arange(2), 9, 4)
     with torch.no_grad():
-        expected = model(*batch[:-1], batch[-1][:, :-1].clamp(min=0))[0].log_softmax(dim=-1)
+        seen = torch.ones_like(batch.mask)
+        expected = model(batch, seen, batch.symbols[:, :-1].clamp(min=0))[0].log_softmax(dim=-1)
     network = TranslatorNetwork(shape, model.arrays())
     beams = Beams(network, network.encode(text.words, text.marks, kinds))
     for count, symbol in enumerate(text.symbols[:3]):
@@ -106,12 +120,12 @@ def test_the_network_says_the_same_as_that_of_torch() -> None:
 def test_training_is_the_same_for_the_same_seed() -> None:
     pytest.importorskip("torch")
     from studies.translating.texts import TrainingText
-    from studies.translating.training import TranslatorTraining, trained
+    from studies.translating.training import TranslatorTraining, arrays_of, trained
 
     shape = TranslatorShape(width=8, heads=2, layers=1, hidden=16, buckets=64, classes=32)
     settings = TranslatorTraining(steps=3, batch=4, warm_up=1, shape=shape)
-    said = ("turn left", "go to the third door", "stop")
-    texts = [TrainingText(each, "en", (), (parse(each),)) for each in said]
+    said = ("turn left", "go to the third door", "stop") * 3
+    texts = arrays_of([TrainingText(each, "en", (), (parse(each),)) for each in said], shape)
     first, second = (trained(texts, settings, 7).tensors for _ in range(2))
     assert all(np.array_equal(first[name], second[name]) for name in first)
 

@@ -1,5 +1,7 @@
 """The texts from which the translator learns, and how it is measured."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from semnav_env.language.corpora.meanings import meaning_of, normal
 from semnav_env.language.translating.interpreter import AskingLimits
 from semnav_env.language.translating.network import TRAINED_FOLDER
 from studies.corpora import learned_corpora
+from studies.translating.corrections import with_correction
 from studies.translating.infeasible import infeasible
 from studies.translating.programs import command_of_meaning
 from studies.translating.ranker import RankedText, learned, ranked_texts, shares_of
@@ -53,10 +56,11 @@ def test_variants_keep_their_meaning_up_to_left_and_right() -> None:
     variants = list(disturbed([TURN], 200, np.random.default_rng(0)))
     alone = [t for t in variants if t.commands and len(t.commands[0].clauses) == 1]
     assert {each.commands[0] for each in alone} == {TURN.commands[0], mirrored}
-    assert all(
-        ("right" in each.text.lower()) == (each.commands[0] == mirrored)
-        for each in alone
-        if "left" in each.text.lower() or "right" in each.text.lower()
+    sides = {each: re.findall("left|right", each.text.lower()) for each in alone}
+    assert all(  # of two sides the last one counts, as the first was taken back
+        said[-1] == ("right" if each.commands[0] == mirrored else "left")
+        for each, said in sides.items()
+        if said
     )
 
 
@@ -109,6 +113,25 @@ def test_synonyms_keep_sides_and_numbers() -> None:
         assert "left" in said
         assert "right" not in said
         assert "third" in said
+
+
+@pytest.mark.parametrize(
+    ("code", "text", "wrong"),
+    [
+        ("en", "go to the third door", {"first", "second", "fourth", "fifth", "sixth"}),
+        ("de", "fahr zur dritten Tür", {"ersten", "zweiten", "vierten", "fünften", "sechsten"}),
+        ("en", "turn left", {"right"}),
+    ],
+)
+def test_a_corrected_text_says_another_value_first(code, text, wrong) -> None:
+    rng = np.random.default_rng(0)
+    for _ in range(20):
+        corrected = with_correction(text, code, rng)
+        assert corrected is not None
+        said = re.findall(r"\w+", corrected)
+        assert said[-1] == text.split()[-1]
+        assert len(wrong & set(said)) == 1
+    assert with_correction("go on", code, rng) is None
 
 
 def test_what_is_made_infeasible_has_other_words() -> None:

@@ -151,8 +151,8 @@ class _Masking:
     def _is_counted_unit(self, at: int) -> bool:
         """Whether a word is the "second" of "1 second"."""
         return any(
-            lexicon.find(self.words, at, "seconds")
-            and (read_number(self.words, at - 1, lexicon) or self.words[at - 1] == "a")
+            (self.words[at - 1] == "a" or read_number(self.words, at - 1, lexicon))
+            and lexicon.find(self.words, at, "seconds")
             for lexicon in self.lexica
         )
 

@@ -33,6 +33,9 @@ _FROM_END = "from_end"
 
 _OTHER_SIDES = (Side.AHEAD, Side.BEHIND, Side.OPPOSITE)
 
+_OPEN_SIDES = (Side.LEFT, Side.RIGHT)
+"""Sides that a text without one may mean: "turn" leaves open which."""
+
 SYMBOLS = (
     *(START, END, REFUSE),
     *("follow", "until", "past", "for", "turn", "turn_by", "turn_around"),
@@ -40,7 +43,7 @@ SYMBOLS = (
     *("leave", "back", "search", "stop", "reverse", "entry", "along"),
     *("before", "after", "slow", "fast"),
     *("door", *(place.value for place in Place), *ROOM_SYMBOLS, *Unit),
-    *(*SIDE_SYMBOLS, *_OTHER_SIDES, *VALUE_SYMBOLS, *_LITERALS, _FROM_END),
+    *(*SIDE_SYMBOLS, *_OTHER_SIDES, *VALUE_SYMBOLS, *_LITERALS, _FROM_END, *_OPEN_SIDES),
 )
 """The symbols of the network; a command is a list of symbols between `START` and `END`.
 
@@ -52,12 +55,14 @@ another symbol in its form has no symbols for these weights.
 def sayable(text: MaskedText) -> tuple[bool, ...]:
     """Which symbols can be said of a text: all but values, sides and rooms that it does not have.
 
-    The order is that of `SYMBOLS`.
+    Left and right themselves can be said only if the text has neither. The order is that of
+    `SYMBOLS`.
     """
     missing = {
         *VALUE_SYMBOLS[len(text.values) :],
         *SIDE_SYMBOLS[len(text.sides) :],
         *ROOM_SYMBOLS[len(text.rooms) :],
+        *(_OPEN_SIDES if text.sides else ()),
     }
     return tuple(symbol not in missing for symbol in SYMBOLS)
 
@@ -129,7 +134,8 @@ class _Speaker:
     def _side(self, side: Side) -> str:
         if side in self._text.sides:
             return SIDE_SYMBOLS[self._text.sides.index(side)]
-        return _sayable(side.value, tuple(each.value for each in _OTHER_SIDES))
+        open_sides = () if self._text.sides else _OPEN_SIDES
+        return _sayable(side.value, tuple(each.value for each in (*_OTHER_SIDES, *open_sides)))
 
     def _room(self, name: str) -> str:
         return ROOM_SYMBOLS[self._text.rooms.index(_sayable(name, self._text.rooms[:MAX_ROOMS]))]

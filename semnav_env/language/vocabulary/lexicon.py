@@ -25,6 +25,9 @@ from semnav_env.language.vocabulary.phrases import (
 Match: TypeAlias = tuple[str, int]
 """The value of a phrase, and the number of the first word behind it."""
 
+Entry: TypeAlias = tuple[Phrase, str, str, frozenset[str]]
+"""A phrase with its class, its value, and the words that it has in any case."""
+
 LONGEST_PHRASE = 12
 """The most words of a phrase."""
 
@@ -37,12 +40,12 @@ class Lexicon:
     """The phrases of a language.
 
     Attributes:
-        by_first: the phrases with their class and value, by the words with which they can begin.
+        by_first: the phrases by the words with which they can begin.
         words: every word of every phrase.
         language: of the phrases.
     """
 
-    by_first: dict[str, list[tuple[Phrase, str, str]]]
+    by_first: dict[str, list[Entry]]
     words: frozenset[str]
     language: Language
 
@@ -57,16 +60,18 @@ class Lexicon:
         return frozenset(
             first
             for first, phrases in self.by_first.items()
-            for phrase, each, _ in phrases
+            for phrase, each, *_ in phrases
             if each == kind and phrase == (first,)
         )
 
     @lru_cache(maxsize=20_000)  # noqa: B019 - the few lexicons live as long as the process
     def _matches(self, window: tuple[str, ...]) -> tuple[tuple[str, str, int], ...]:
         """Class, value and length of every phrase with which some words begin, longest first."""
+        present = frozenset(window)
         found = {
             (kind, value, length): None
-            for phrase, kind, value in (self.by_first.get(window[0], ()) if window else ())
+            for phrase, kind, value, needed in (self.by_first.get(window[0], ()) if window else ())
+            if needed <= present  # most phrases end here, which is much faster than reading them
             for length in ends_of(phrase, window, 0)
         }
         return tuple(sorted(found, key=lambda match: -match[2]))
@@ -125,12 +130,13 @@ def compound_numbers(language: Language) -> Iterator[tuple[str, float]]:
 def _indexed(
     texts: Iterable[tuple[str, str, str]], compiler: PhraseCompiler, language: Language
 ) -> Lexicon:
-    by_first: defaultdict[str, list[tuple[Phrase, str, str]]] = defaultdict(list)
+    by_first: defaultdict[str, list[Entry]] = defaultdict(list)
     known: set[str] = set()
     for text, kind, value in texts:
         for phrase in compiler.compiled(text):
-            known.update(() if kind == "beyond" else words_of(phrase))
-            entry = phrase, kind, value
+            needed = frozenset(words_of(phrase))
+            known.update(() if kind == "beyond" else needed)
+            entry = phrase, kind, value, needed
             for first in first_words(phrase):
                 by_first[first].append(entry)
     return Lexicon(dict(by_first), frozenset(known.union(compiler.words())), language)
