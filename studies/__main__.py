@@ -22,7 +22,7 @@ STUDIES = CommandTable(
         "page": ("studies.page.command", "how soon the page of `semnav serve` moves its robot"),
         "places": ("studies.places.command", "corridors told from other places"),
         "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
-        "ranker": ("studies.translating.ranker_command", "learn when to act, to ask, to refuse"),
+        "limits": ("studies.translating.limits", "show when it is best to act, to ask, to refuse"),
         "search": ("studies.search.command", "houses searched with their plan and without"),
         "segmentation": ("studies.segmentation.command", "how walls are cut into pieces"),
         "speech": ("studies.speech.command", "the speech parser, with fillers and without commas"),

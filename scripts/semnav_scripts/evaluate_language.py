@@ -34,7 +34,7 @@ class Arguments:
             sentences, one a line; by default those of which nothing was
             learned, in a checkout.
         language: force a language; by default each text is recognised.
-        translator: folder of the translator and its ranker; by default those of the package.
+        translator: folder of the translator; by default that of the package.
         show: print the sentences with this outcome.
         json: print JSON.
     """

@@ -11,8 +11,13 @@ FOLDER = Path(__file__).parent
 
 
 def learned_corpora() -> tuple[Path, ...]:
-    """The files of the authors from whom translator and ranker learn."""
+    """The files of the authors from whom the translator learns."""
     return _files("learned")
+
+
+def tuned_corpora() -> tuple[Path, ...]:
+    """The files of authors on whom the limits for acting and asking were chosen."""
+    return _files("tuned")
 
 
 def held_out_corpora() -> tuple[Path, ...]:

@@ -66,7 +66,7 @@ ABOUT = {
     "semnav_env/networks": "the layers of learned networks in NumPy, and their files",
     "semnav_agents/planning": "the planner of the scripted agent and the oracle",
     "semnav_agents/searching": "searching a house: poses to look from, and people to approach",
-    "semnav_env/language/translating": "the learned reader: values out, translated, ranked",
+    "semnav_env/language/translating": "the learned reader: values out, translated",
     "semnav_ros": "a robot's own node: its core without ROS, and what carries its messages",
     "semnav_scripts": "the `semnav` command",
     "semnav_scripts/page": "the page of `semnav serve`: requests, sessions, server, web files",

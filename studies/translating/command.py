@@ -1,14 +1,14 @@
 """`python -m studies translator`: train the translator.
 
-Four teachers learn first, each without a quarter of the authors. The translator learns from all
+Three teachers learn first, each without a quarter of the authors. The translator learns from all
 authors and from what the teachers say together. What a teacher makes of the authors whom it does
-not know is what `python -m studies ranker` learns from.
+not know is shown by `python -m studies limits`.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from itertools import groupby, islice
 from pathlib import Path
 
@@ -25,7 +25,10 @@ from studies.corpora import author_of, learned_corpora
 from studies.translating.texts import TrainingText, authored, disturbed, generated, of_episodes
 from studies.translating.training import TranslatorTraining, arrays_of, trained
 
-QUARTERS = range(4)
+TEACHERS = 3
+
+TEACHING = TranslatorTraining(steps=3700, dropout=0.12)
+"""How a teacher is trained; the device is that of the translator's training."""
 
 TEACHERS_FOLDER = Path("out/teachers")
 
@@ -41,7 +44,7 @@ class Recipe:
         variants: of each text of an author.
         generated: paraphrases of the generator for each author, half of them of the commands that
             the author wrote.
-        seed: of the texts, the weights and the order.
+        seed: of the weights and the order; that of the texts is always 0.
         training: of the network.
     """
 
@@ -69,27 +72,28 @@ class Recipe:
 
     def of_author(self, author: int, known: Sequence[TrainingText]) -> Iterator[TrainingText]:
         """Variants of the texts of an author, and the generator's."""
-        varied, written = (np.random.default_rng([self.seed, author, k]) for k in range(2))
+        varied, written = (np.random.default_rng([0, author, k]) for k in range(2))
         yield from disturbed(known, self.variants * len(known), varied)
         yield from islice(generated(known, self.generated, written), self.generated)
 
 
-def strangers(quarter: int) -> tuple[Path, ...]:
-    """The files of the authors whom the teacher of a quarter does not know."""
+def strangers(teacher: int) -> tuple[Path, ...]:
+    """The files of the authors whom a teacher does not know, a quarter of all."""
     return tuple(
         each
         for each in learned_corpora()
-        if author_of(each) >= FIRST_STRANGER and author_of(each) % len(QUARTERS) == quarter
+        if author_of(each) >= FIRST_STRANGER and author_of(each) % 4 == teacher
     )
 
 
 def teachers_in(folder: Path, recipe: Recipe) -> list[Path]:
-    """The folders of the four teachers; those that are not there are trained first."""
-    folders = [folder / str(quarter) for quarter in QUARTERS]
-    for quarter, each in zip(QUARTERS, folders, strict=True):
+    """The folders of the teachers; those that are not there are trained first."""
+    folders = [folder / str(teacher) for teacher in range(TEACHERS)]
+    training = replace(TEACHING, device=recipe.training.device)
+    for teacher, each in enumerate(folders):
         if not (each / CARD_FILE).exists():
-            known = [path for path in learned_corpora() if path not in strangers(quarter)]
-            recipe.train(known, each)
+            known = [path for path in learned_corpora() if path not in strangers(teacher)]
+            replace(recipe, seed=recipe.seed + 1 + teacher, training=training).train(known, each)
     return folders
 
 

@@ -27,7 +27,7 @@ from studies.translating.torch_network import TorchTranslator
 LENGTHS = 8
 """Into so many sets of about the same length the texts are parted; a batch is from one."""
 
-OWN = 0.3
+OWN = 0.5
 """Share of the authors' own meanings in what is learned, where there are teachers."""
 
 SHOWN = 500
@@ -50,11 +50,11 @@ class TranslatorTraining:
         device: "cpu", or "cuda" for a graphics processor.
     """
 
-    steps: Count = 16000
-    batch: Count = 48
+    steps: Count = 23000
+    batch: Count = 256
     rate: float = 1.5e-3
-    warm_up: Count = 300
-    dropout: float = 0.12
+    warm_up: Count = 500
+    dropout: float = 0.08
     word_dropout: float = 0.12
     value_dropout: float = 0.6
     shape: TranslatorShape = field(default_factory=lambda: TranslatorShape(192, 6, 4, 576))

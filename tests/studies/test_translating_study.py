@@ -15,9 +15,8 @@ from semnav_env.language.translating.network import TRAINED_FOLDER
 from studies.corpora import learned_corpora
 from studies.translating.corrections import with_correction
 from studies.translating.infeasible import infeasible
+from studies.translating.limits import TranslatedCase, cases_of, outcome
 from studies.translating.programs import command_of_meaning
-from studies.translating.ranker import RankedText, learned, ranked_texts, shares_of
-from studies.translating.ranker_command import outcome
 from studies.translating.synonyms import with_synonyms
 from studies.translating.texts import TrainingText, authored, disturbed, generated, joined
 
@@ -71,39 +70,24 @@ def test_the_texts_are_the_same_for_the_same_seed() -> None:
     assert all(each.commands for each in first)
 
 
-def ranked(kind: str, *candidates: tuple[float, bool]) -> RankedText:
-    found = tuple({"any": 1.0, "likeness": likeness} for likeness, _ in candidates)
-    return RankedText(kind, found, tuple(right for _, right in candidates), "english")
-
-
-def test_the_ranker_learns_what_the_right_candidates_have_in_common() -> None:
-    texts = [ranked("feasible", (0.9, True), (0.2, False)) for _ in range(30)]
-    texts += [ranked("infeasible", (0.3, False)) for _ in range(30)]
-    weights = learned(texts)
-    first, second, none = shares_of(ranked("feasible", (0.9, True), (0.2, False)), weights)
-    assert first > 0.7 > none > second
-    assert shares_of(ranked("infeasible", (0.3, False)), weights)[-1] > 0.5
-
-
 @pytest.mark.parametrize(
-    ("shares", "right", "becomes"),
+    ("candidates", "becomes"),
     [
-        ((0.95, 0.02, 0.03), (True, False), "done"),
-        ((0.95, 0.02, 0.03), (False, True), "misread"),
-        ((0.5, 0.3, 0.2), (False, True), "asked"),
-        ((0.5, 0.3, 0.2), (False, False), "asked wrongly"),
-        ((0.2, 0.1, 0.7), (True, False), "refused"),
+        (((0.95, True), (0.02, False)), "done"),
+        (((0.95, False), (0.02, True)), "misread"),
+        (((0.5, False), (0.3, True)), "asked"),
+        (((0.5, False), (0.3, False)), "asked wrongly"),
+        (((0.2, True), (0.05, False)), "refused"),
+        ((), "refused"),
     ],
 )
-def test_what_becomes_of_a_text_follows_from_its_probabilities(shares, right, becomes) -> None:
-    text = RankedText("feasible", ({}, {}), right, "english")
-    assert outcome(text, shares, AskingLimits()) == becomes
+def test_what_becomes_of_a_text_follows_from_its_probabilities(candidates, becomes) -> None:
+    assert outcome(TranslatedCase("feasible", candidates, "english"), AskingLimits()) == becomes
 
 
-def test_the_ranked_text_has_the_candidates_of_the_interpreter() -> None:
-    found = list(ranked_texts(learned_corpora()[2], TRAINED_FOLDER))[:20]
-    assert all(len(text.evidence) == len(text.right) for text in found)
-    assert sum(any(text.right) for text in found) >= 15
+def test_the_limits_are_shown_of_what_the_interpreter_finds() -> None:
+    found = list(cases_of(learned_corpora()[2], TRAINED_FOLDER))[:20]
+    assert sum(any(right for _, right in case.candidates) for case in found) >= 15
 
 
 def test_synonyms_keep_sides_and_numbers() -> None:

@@ -1,4 +1,4 @@
-"""Understands a text: its translations are ranked, and the robot acts, asks or refuses."""
+"""Understands a text: by how likely its translations are the robot acts, asks or refuses."""
 
 from __future__ import annotations
 
@@ -17,9 +17,8 @@ from semnav_env.language.question import AmbiguousCommandError, Ask, Question, a
 from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
 from semnav_env.language.translating.defaults import with_defaults
 from semnav_env.language.translating.network import TRAINED_FOLDER, load_translator
-from semnav_env.language.translating.ranking import ranked
 from semnav_env.language.translating.refusal import Refusal, refused_language
-from semnav_env.language.translating.translator import TranslatedText, Translation, translate
+from semnav_env.language.translating.translator import TranslatedText, translate
 from semnav_env.language.vocabulary.recognition import language_of_text
 
 
@@ -27,8 +26,8 @@ from semnav_env.language.vocabulary.recognition import language_of_text
 class AskingLimits:
     """Probabilities from which an interpreter acts or asks.
 
-    The values were chosen with translators and rankers that had not learned from the author who was
-    measured, see docs/lab/language.md.
+    The values were chosen with translators that had not learned from the author who was measured,
+    see docs/lab/language.md.
 
     Attributes:
         acting: least probability of a translation that is acted on without a question.
@@ -36,14 +35,14 @@ class AskingLimits:
         choices: the most choices of a question.
     """
 
-    acting: float = 0.85
-    asking: float = 0.35
+    acting: float = 0.8
+    asking: float = 0.3
     choices: int = 2
 
 
 @dataclass(frozen=True)
 class LearnedInterpreter:
-    """Ranks what a learned translator takes a text for.
+    """Acts on what a learned translator takes a text for.
 
     The robot acts if one translation is likely enough, and asks which of two is meant if they are
     likely together. Otherwise it refuses the text. Canonical words and calls to stop are never
@@ -53,7 +52,7 @@ class LearnedInterpreter:
         language: code, or a loaded language; None to recognise it.
         rooms: names of the rooms of the floor plan; none if they are not known.
         limits: probabilities from which it acts or asks.
-        folder: of the files of translator and ranker.
+        folder: of the files of the translator.
     """
 
     language: str | Language | None = None
@@ -77,23 +76,15 @@ class LearnedInterpreter:
         if self.language is not None and (error := refused_language(text, spoken)):
             raise error
         found = translate(text, self.rooms, load_translator(self.folder))
-        order = ranked(found, self.folder) if found else []
-        if found and order and self._may_act(found, order[0][1]):
-            likeliest, share = order[0]
+        likeliest = found.translations[0] if found and found.translations else None
+        if found and likeliest and likeliest.likeness >= self.limits.acting:
             command = with_defaults(likeliest.command, found.support)
-            return Interpretation(text, command, spoken, "translator", share)
+            return Interpretation(text, command, spoken, "translator", likeliest.likeness)
         if begins_or_ends_with_stop(text):
             return self._stop(text)
-        if question := self._question(text, spoken, found, order):
+        if found and (question := self._question(text, spoken, found)):
             raise question
         raise Refusal(text, spoken, self.rooms, found).error
-
-    def _may_act(self, text: TranslatedText, share: float) -> bool:
-        """Whether a command is likely enough, and the text neither forbids nor leaves a choice.
-
-        The translator often takes the forbidden thing, or one of two, for the wanted one.
-        """
-        return share >= self.limits.acting and not text.support.leaves_open
 
     def _stop(self, text: str) -> Interpretation:
         """A stop, in whatever text; its language does not matter."""
@@ -101,19 +92,15 @@ class LearnedInterpreter:
         return Interpretation(text, Command((Stop(),)), spoken, "stop")
 
     def _question(
-        self,
-        text: str,
-        spoken: Language,
-        found: TranslatedText | None,
-        order: Sequence[tuple[Translation, float]],
+        self, text: str, spoken: Language, found: TranslatedText
     ) -> AmbiguousCommandError | None:
         """The question which of two commands is meant; None if none of them is likely."""
-        order = [each for each in order if found and found.support.speaks_of(each[0].command)]
+        order = [each for each in found.translations if found.support.speaks_of(each.command)]
         likely = order[: self.limits.choices]
-        if sum(share for _, share in likely) < self.limits.asking:
+        if sum(each.likeness for each in likely) < self.limits.asking:
             return None
-        second = [each for each, share in likely[1:] if share >= self.limits.asking / 5]
-        choices = (likely[0][0].command, *(each.command for each in second))
+        second = [each for each in likely[1:] if each.likeness >= self.limits.asking / 5]
+        choices = tuple(each.command for each in (likely[0], *second))
         return AmbiguousCommandError(text, Question(choices, spoken, self._read))
 
     def _read(self, text: str) -> Command:

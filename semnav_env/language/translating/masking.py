@@ -36,7 +36,6 @@ MARKS = FIRST_ROOM + MAX_ROOMS
 VALUE_SYMBOLS = tuple(f"value {n}" for n in range(MAX_VALUES))
 SIDE_SYMBOLS = ("side 0", "side 1")
 ROOM_SYMBOLS = tuple(f"room {n}" for n in range(MAX_ROOMS))
-MARK_SYMBOLS = ("", *VALUE_SYMBOLS, *SIDE_SYMBOLS, *ROOM_SYMBOLS)
 """The symbol of the network for each mark."""
 
 

@@ -10,6 +10,7 @@ from semnav_env.language.errors import CommandError, listed
 from semnav_env.language.language import Language
 from semnav_env.language.languages import languages
 from semnav_env.language.normalise import normalise
+from semnav_env.language.rooms import plain_name
 from semnav_env.language.translating.translator import TranslatedText
 from semnav_env.language.translating.word_classes import UNKNOWN, classes_of
 from semnav_env.language.vocabulary.lexicon import lexicon_of
@@ -20,8 +21,8 @@ from semnav_env.language.words import TextPiece, pieces
 CAUSES = (
     ("refused_thing", ("beyond",)),
     ("refused_room", ("noun area",)),
+    ("refused_not", ("not", "absent", "beyond", "before it")),
     ("refused_word", (UNKNOWN,)),
-    ("refused_not", ("not",)),
     ("refused_or", ("or",)),
 )
 """What is said of the first word that belongs to some classes and to no others. The first cause
@@ -59,11 +60,16 @@ class Refusal:
 
     @cached_property
     def _words(self) -> list[tuple[TextPiece, set[str]]]:
-        """The words, each with its classes."""
+        """The words that name no room of the building, each with its classes."""
         said = pieces(normalise(self.text, self.spoken).text)
         found = classes_of([piece.text for piece in said], lexicon_of(self.spoken))
         classes = ({name.partition(",")[0] for name in names} for names in found)
-        return list(zip(said, classes, strict=True))
+        named = {word for room in self.rooms for word in plain_name(room).split(" ")}
+        return [
+            (piece, known)
+            for piece, known in zip(said, classes, strict=True)
+            if any(map(str.isalnum, piece.text)) and plain_name(piece.text) not in named
+        ]
 
     def _about(self, piece: TextPiece, phrase: str) -> CommandError:
         """The error that points at a word, and says it as it was written."""

@@ -10,10 +10,9 @@ from functools import cached_property
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import key_of
 from semnav_env.language.named_rooms import missing_room
-from semnav_env.language.translating.masking import MARK_SYMBOLS, MaskedText, masked
+from semnav_env.language.translating.masking import MaskedText, masked
 from semnav_env.language.translating.network import TranslatorNetwork
 from semnav_env.language.translating.programs import (
-    REFUSE,
     UnsayableError,
     command_of,
     sayable,
@@ -34,12 +33,10 @@ class Translation:
     Attributes:
         command: the command.
         likeness: its probability by the network, with that of others of the same meaning.
-        unsaid: numbers, sides and rooms of the text that the command does not have.
     """
 
     command: Command
     likeness: float
-    unsaid: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -48,12 +45,10 @@ class TranslatedText:
 
     Attributes:
         translations: commands that differ in meaning, the likeliest first.
-        refusal: probability that the text is no command, 0 to 1.
         plain: the text with placeholders.
     """
 
     translations: tuple[Translation, ...]
-    refusal: float
     plain: MaskedText
 
     @cached_property
@@ -81,16 +76,14 @@ def translate(text: str, rooms: Sequence[str], network: TranslatorNetwork) -> Tr
         return None
     encoded = network.encode(plain.words, plain.marks, plain.classes)
     found: dict[object, Translation] = {}
-    refusal = 0.0
     for symbols, log_share in network.candidates(encoded, CANDIDATES, sayable(plain)):
-        share = math.exp(log_share)
-        if symbols == (REFUSE,):
-            refusal = share
-        elif (command := _command_of(symbols, plain)) and not missing_room(command, rooms):
-            alike = found.get(key_of(command), Translation(command, 0.0, _unsaid(symbols, plain)))
-            found[key_of(command)] = replace(alike, likeness=alike.likeness + share)
+        command = _command_of(symbols, plain)  # none if the network refuses the text
+        if command and not missing_room(command, rooms):
+            alike = found.get(key_of(command), Translation(command, 0.0))
+            share = alike.likeness + math.exp(log_share)
+            found[key_of(command)] = replace(alike, likeness=share)
     order = sorted(found.values(), key=lambda each: -each.likeness)
-    return TranslatedText(tuple(order), refusal, plain)
+    return TranslatedText(tuple(order), plain)
 
 
 def _command_of(symbols: Sequence[str], plain: MaskedText) -> Command | None:
@@ -98,8 +91,3 @@ def _command_of(symbols: Sequence[str], plain: MaskedText) -> Command | None:
         return command_of(symbols, plain)
     except UnsayableError:
         return None
-
-
-def _unsaid(symbols: Sequence[str], plain: MaskedText) -> tuple[str, ...]:
-    marked = zip(plain.words, plain.marks, strict=True)
-    return tuple(word for word, mark in marked if mark and MARK_SYMBOLS[mark] not in symbols)
