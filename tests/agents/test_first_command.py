@@ -1,4 +1,4 @@
-"""The first command of the README, from its own start: the doors that it stands in or passed count."""
+"""The first command of the README, from its own start: doors that were passed count on."""
 
 from __future__ import annotations
 
