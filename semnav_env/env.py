@@ -31,6 +31,7 @@ from semnav_features import ExtractorSettings
 from semnav_features.frames import ORIGIN
 from semnav_features.lidar_spec import LidarSpec, lidar_spec
 from semnav_features.one_thread import for_one_thread
+from semnav_features.scene import Scene
 
 
 class SemNavEnv(GymnasiumEnv[Any]):
@@ -239,14 +240,14 @@ class SemNavEnv(GymnasiumEnv[Any]):
         if not may_stay:
             self.tracker = self._new_tracker()
 
-    def _new_tracker(self) -> BeliefTracker:
+    def _new_tracker(self, known_scene: Scene | None = None) -> BeliefTracker:
         setup = self.setup
         return BeliefTracker(
             setup.lidar,
             setup.robot.lidar_mount,
             self.extractor,
             corrects_drift=self.corrects_drift and not setup.exact,
-            known_scene=self.floor_plan.scene_by(self.rules.door) if setup.exact else None,
+            known_scene=known_scene,
             rules=self.rules,
             observes_features=getattr(self.observation_type, "observes_features", True),
         )
@@ -256,6 +257,8 @@ class SemNavEnv(GymnasiumEnv[Any]):
         self.judge, self.instruction = Judge(mission, self.payload), instruction
         self.tokens = language.encode(mission.command, self.floor_plan.room_names)
         odometry_frame = ORIGIN if self.setup.exact else mission.start
+        if self.setup.exact:
+            self.tracker = self._new_tracker(mission.scene)
         self.tracker.begin(mission.command, mission.ways_seen_from(odometry_frame))
         self.loop = RobotLoop(self.simulator, self.tracker, self.judge, self.payload)
         self.renderer.begin(mission.start)

@@ -178,6 +178,9 @@ class SuccessRules:
         wall_least: a way there that is shorter after that does not count either, metres.
         wall_room: a hallway counts for that if its sides are this much farther from its middle than
             `wall_distance`, metres: in a narrower one no side can be told.
+        door_doubt: an opening that is wider than `DoorRules.width_max`, or narrower than
+            `width_min`, by up to this may be a door or not, metres: three times `width_tolerance`.
+            What is right in either case is accepted.
         passed_arm_distance: an arm counts as passed, and not as a wrong turn, if its far edge lies
             no farther than this ahead of the pose at which the clause began, metres.
     """
@@ -203,6 +206,7 @@ class SuccessRules:
     wall_entry: Length = 2.0
     wall_least: Length = 1.0
     wall_room: Length = 0.1
+    door_doubt: Length = 0.15
     passed_arm_distance: Length = 0.5
 
     def __post_init__(self) -> None:

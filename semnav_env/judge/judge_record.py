@@ -19,10 +19,10 @@ from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.structures import Structure, numba_type
 
-DOOR_CROSSED, ASTRAY, TOO_STILL = 8, 16, 32
+DOOR_CROSSED, ASTRAY, TOO_STILL, SEVERAL_ANSWERS = 8, 16, 32, 64
 """Events beside those of `clause_progress`, as bits: a door was crossed; the robot is inside an arm
 that the clause does not name, or far behind its junction; it has stood still for longer than is
-allowed."""
+allowed; the command has other right answers, so their judges have this control period to judge."""
 
 NO_ARMS, NO_DISTANCES = np.empty((0, 5)), np.empty((0, 0))
 """Of a record without a goal."""
@@ -78,6 +78,8 @@ def judge_motion(record: JudgeRecord) -> int:
         events |= DOOR_CROSSED
     if _is_astray(record.arms, state):
         events |= ASTRAY
+    if state.several_answers:
+        events |= SEVERAL_ANSWERS
     if state.wall_side != 0.0:
         _measure_wall(state)
     state.remaining_before, state.remaining = state.remaining, _remaining(record, state)

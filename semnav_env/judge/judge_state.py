@@ -54,12 +54,12 @@ _LENGTHS = [("path_length", "f8"), ("progress", "f8")]
 PERIOD = np.dtype([*_COUNTS, *_LENGTHS, *((name, "?") for name in Period._fields[5:])])
 """A `Period` as compiled code writes it."""
 
-_INTEGERS = ("in_contact", "was_in_contact", "crossed_door")
+_INTEGERS = ("in_contact", "was_in_contact", "crossed_door", "several_answers")
 _NAMES = (
     *("x", "y", "heading", "speed", "yaw_rate", "in_contact", "seconds"),
     *("last_x", "last_y", "was_in_contact", "still_seconds"),
     *("crossed_door", "remaining", "remaining_before", "west", "south", "spacing"),
-    *("still_speed", "still_yaw_rate", "longest_still", "missed_beyond"),
+    *("still_speed", "still_yaw_rate", "longest_still", "missed_beyond", "several_answers"),
     *("corridor_x", "corridor_y", "corridor_cos", "corridor_sin"),
     *("wall_side", "wall_offset", "wall_end", "hallway_way", "wall_way"),
 )
@@ -74,12 +74,12 @@ still_seconds: of the period before, the latter how long the robot has stood sti
 index of the door of the plan that was crossed, or -1. remaining, remaining_before: length of the
 way to the goal, now and one period ago. west, south, spacing: of the field of distances.
 still_speed, still_yaw_rate: below both the robot stands still; longest_still: the longest time that
-it may stand still. missed_beyond: see `missed_beyond`. corridor_x to corridor_sin: frame of the
-corridor of the goal. wall_side: 1 or -1 while the robot is to keep along the wall on its left or
-right, else 0; wall_offset, wall_end: half the width of the hallway that counts for that, and how
-far along it that lane leads; hallway_way,
-wall_way: what it has driven there since it had its way to the wall, in all (negative before) and on
-that side of the middle.
+it may stand still. missed_beyond: see `missed_beyond`. several_answers: 1 if other judges judge
+each control period, too, for other right answers, else 0. corridor_x to corridor_sin: frame of
+the corridor of the goal. wall_side: 1 or -1 while the robot is to keep along the wall on its left
+or right, else 0; wall_offset, wall_end: half the width of the hallway that counts for that, and
+how far along it that lane leads; hallway_way, wall_way: what it has driven there since it had its
+way to the wall, in all (negative before) and on that side of the middle.
 period: the result of the control period; the kernel writes it, and the judge
 completes it after an event.
 """
@@ -98,6 +98,7 @@ def first_state(mission: Mission) -> np.ndarray:
     state["period"]["pose"] = mission.start
     state["west"], state["south"], state["spacing"] = mission.geodesic.grid.frame
     state["still_speed"], state["still_yaw_rate"] = rules.still_speed, rules.still_yaw_rate
+    state["several_answers"] = bool(mission.others)
     return state
 
 
@@ -137,6 +138,11 @@ def put_motion(numbers: memoryview, motion: Motion) -> None:
     """Write the motion of a control period into the bytes of a state."""
     pose, speed, yaw_rate, in_contact, seconds = motion
     _MOTION_FORMAT.pack_into(numbers, 0, *pose, speed, yaw_rate, in_contact, seconds)
+
+
+def copy_motion(source: memoryview, target: memoryview) -> None:
+    """Write the motion of a control period from the bytes of a state into those of another."""
+    target[: _MOTION_FORMAT.size] = source[: _MOTION_FORMAT.size]
 
 
 def read_period(numbers: memoryview) -> Period:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import Any
@@ -11,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from semnav_env.judge.goals import goals_in_turn, place
+from semnav_env.judge.readings import answers
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.language import Command
 from semnav_env.mind.grounding.errors import GroundingError
@@ -28,13 +30,14 @@ class Mission:
     """A command at a start pose in a floor plan, with its true goals and ways.
 
     Attributes:
-        floor_plan: the truth.
+        floor_plan: the truth, or one of its `readings`.
         geodesic: its shortest ways.
         command: what the robot is told.
         start: pose of the robot's centre, world frame.
         goals: of the clauses on the true scene, each grounded where the one before ends.
         ways: to the rooms that the command names, by the number of the clause, world frame.
         rules: rules by which the command is grounded and judged.
+        others: the missions with the other right answers; their routes are no shorter.
     """
 
     floor_plan: FloorPlan
@@ -44,6 +47,7 @@ class Mission:
     goals: tuple[Goal, ...]
     ways: Mapping[int, Way] = field(repr=False)
     rules: Rules = field(default=Rules(), repr=False)
+    others: tuple[Mission, ...] = field(default=(), repr=False)
 
     @property
     def scene(self) -> Scene:
@@ -81,7 +85,7 @@ def plan_mission(
     feasible: bool = True,
     rules: Rules = Rules(),
 ) -> Mission:
-    """Ground a command on the floor plan.
+    """Ground a command on the floor plan; of several right answers the nearest comes first.
 
     Args:
         floor_plan: the truth.
@@ -95,12 +99,22 @@ def plan_mission(
     Raises:
         GroundingError: the command cannot be carried out from there; says what there is.
     """
+    if feasible:
+        found = answers(floor_plan, geodesic, command, start, rules)
+        missions = [
+            Mission(each.plan, geodesic, command, start, each.goals, each.ways, rules)
+            for each in found
+        ]
+        return missions[0] if len(missions) == 1 else _nearest(missions)
     guide = RoomGuide(floor_plan, command, geodesic)
     goals: tuple[Goal, ...] = ()
-    try:
+    with suppress(GroundingError):
         for _, goal in goals_in_turn(floor_plan, command, start, guide, rules):
             goals += (goal,)
-    except GroundingError:
-        if feasible:
-            raise
     return Mission(floor_plan, geodesic, command, start, goals, dict(guide.ways), rules)
+
+
+def _nearest(missions: Sequence[Mission]) -> Mission:
+    """The mission with the shortest route, which knows the others."""
+    nearest, *others = sorted(missions, key=lambda mission: mission.route_length)
+    return replace(nearest, others=tuple(others))

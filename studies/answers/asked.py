@@ -1,4 +1,4 @@
-"""A command and its right answers in all variants of its floor."""
+"""A command, its right answers, and what it means in all variants of its floor."""
 
 from __future__ import annotations
 
@@ -13,22 +13,20 @@ from semnav_env.judge.episodes.stable_answers import (
     TIMES,
     StableAnswers,
     Variant,
+    answer_in,
     moved_walls,
-    same_answer,
-    same_goal,
 )
-from semnav_env.judge.routes.room_guide import RoomGuide
+from semnav_env.judge.readings import Answer, same_answer, same_goal
 from semnav_env.mind.grounding.goal import Goal
 from semnav_env.mind.grounding.ways import KnownWays
 from semnav_env.world.maps.floor_plan import FloorPlan
-from semnav_env.world.maps.geodesic import Geodesic
 from semnav_features.frames import Pose, compose
 from semnav_features.scene import StillScene
 from studies.answers.first_commands import FirstCommand
 from studies.answers.jumps import Jump, View, jumps
 
-Answer: TypeAlias = tuple[Goal, ...]
-"""The goals of a command."""
+Goals: TypeAlias = tuple[Goal, ...]
+"""The goals of a command; empty if it cannot be carried out."""
 
 SAME_DOORS = "walls, same doors"
 """The cause of variants with moved walls in which the plan's doors are doors, however wide."""
@@ -42,6 +40,15 @@ SETS = {
     "start, and walls with the same doors": {"start", SAME_DOORS},
 }
 """Sets of causes by what they are called."""
+
+RULES = {
+    "one answer, and possible in every variant": (False, True),
+    "several answers, and possible in every variant": (True, True),
+    "one answer": (False, False),
+    "several answers": (True, False),
+}
+"""Rules by which a command may be kept: whether all right answers are accepted, and whether it must
+be possible in every variant. The last one is that of `StableAnswers`."""
 
 
 def same_doors(plan: FloorPlan) -> tuple[Variant, ...]:
@@ -67,13 +74,22 @@ class Asked:
 
     @property
     def kept_by(self) -> Iterator[str]:
-        """The names of the `SETS` of which no variant changes the answer."""
+        """The names of the `SETS` in which no variant has an answer that is not accepted."""
         causes = {variant.cause for variant, _ in (*self._changed, *self._changed_by_walls)}
         return (name for name, those in SETS.items() if not those & causes)
 
+    @property
+    def kept_if(self) -> Iterator[str]:
+        """The names of the `RULES` by which the command is kept."""
+        for name, (several, possible) in RULES.items():
+            accepted = self._accepted if several else self._accepted[:1]
+            found = self._others(self._stable.variants, accepted)
+            if not any(possible or goals for _, goals in found):
+                yield name
+
     @cached_property
     def jumps(self) -> frozenset[Jump]:
-        """What jumps in the variants that change the answer; nothing if none does."""
+        """What jumps in the variants with an answer that is not accepted; nothing without one."""
         return frozenset(jump for each in self._changed for jump in self._jumps(*each))
 
     @cached_property
@@ -81,38 +97,39 @@ class Asked:
         return self.said.plan.derived(StableAnswers)
 
     @cached_property
-    def _guide(self) -> RoomGuide:
-        plan = self.said.plan
-        return RoomGuide(plan, self.said.command, plan.derived(Geodesic))
+    def _accepted(self) -> tuple[Answer, ...]:
+        return self._stable.accepted(self.said.command, self.said.start)
 
     @cached_property
-    def _answer(self) -> Answer:
-        return self._stable.answer(self.said.command, self.said.start, self._guide)
+    def _changed(self) -> tuple[tuple[Variant, Goals], ...]:
+        return self._unaccepted(self._stable.variants)
 
     @cached_property
-    def _changed(self) -> tuple[tuple[Variant, Answer], ...]:
-        return tuple(self._changed_in(self._stable.variants))
+    def _changed_by_walls(self) -> tuple[tuple[Variant, Goals], ...]:
+        return self._unaccepted(self.said.plan.derived(same_doors))
 
-    @cached_property
-    def _changed_by_walls(self) -> tuple[tuple[Variant, Answer], ...]:
-        return tuple(self._changed_in(self.said.plan.derived(same_doors)))
+    def _unaccepted(self, variants: tuple[Variant, ...]) -> tuple[tuple[Variant, Goals], ...]:
+        """The variants with an answer that is not accepted, and that answer."""
+        return tuple(each for each in self._others(variants, self._accepted) if each[1])
 
-    def _changed_in(self, variants: tuple[Variant, ...]) -> Iterator[tuple[Variant, Answer]]:
-        """The variants that change the answer, with what it is there."""
-        right = self._answer  # found first, as it tells the ways
+    def _others(
+        self, variants: tuple[Variant, ...], accepted: tuple[Answer, ...]
+    ) -> Iterator[tuple[Variant, Goals]]:
+        """The variants with another answer than some, or with none, and that answer."""
+        ways = KnownWays(self._accepted[0].ways)
         for variant in variants:
-            start, ways = self._start(variant), KnownWays(self._guide.ways)
-            answer = self._stable.answer(self.said.command, start, ways, variant.scene)
-            if not same_answer(right, answer):
-                yield variant, answer
+            goals = answer_in(variant, self.said.plan, self.said.command, self.said.start, ways)
+            if not goals or not any(same_answer(each.goals, goals) for each in accepted):
+                yield variant, goals or ()
 
     def _start(self, variant: Variant) -> Pose:
         return compose(self.said.start, variant.shift)
 
-    def _jumps(self, variant: Variant, answer: Answer) -> frozenset[Jump]:
+    def _jumps(self, variant: Variant, goals: Goals) -> frozenset[Jump]:
         """What of the corridor differs where the first clause with another answer begins."""
-        pairs = list(zip(self._answer, answer, strict=False))
+        usual = self._accepted[0].goals
+        pairs = list(zip(usual, goals, strict=False))
         clause = next((k for k, pair in enumerate(pairs) if not same_goal(*pair)), len(pairs))
-        here = self._answer[clause - 1].next_begin if clause else self.said.start
-        there = answer[clause - 1].next_begin if clause else self._start(variant)
+        here = usual[clause - 1].next_begin if clause else self.said.start
+        there = goals[clause - 1].next_begin if clause else self._start(variant)
         return jumps(View(self.said.plan.scene, here), View(variant.scene, there))

@@ -30,15 +30,17 @@ class Arguments:
 
     def run(self) -> int:
         """Ground each command in all variants of its floor, and print the counts."""
-        kept, jumping, alone = Counter[str](), Counter[str](), Counter[str]()
+        rules, kept, jumping, alone = (Counter[str]() for _ in range(4))
         with TemporaryDirectory() as folder:
             commands = list(first_commands(self.kth, self.split, Path(folder)))
         for asked in map(Asked, commands):
+            rules.update(asked.kept_if)
             kept.update(asked.kept_by)
             jumping.update(asked.jumps)
             alone.update(asked.jumps if len(asked.jumps) == 1 else ())
         rows = {
             "commands": {"in all": len(commands)},
+            "kept if": dict(rules),
             "kept by": dict(kept.most_common()),
             "what jumps": dict(jumping.most_common()),
             "what jumps alone": dict(alone.most_common()),

@@ -127,8 +127,8 @@ in threads (`semnav_env/vector/tick.py`) and the functions called once. On a rea
 on the floor plan that it can be carried out. The robot's `Follower`
 (`semnav_env/mind/grounding/follower.py`) holds the active clause and grounds it on the memory
 (`semnav_env/mind/grounding/ground.py`); the result is a goal: seek, reach, pass or stop. The
-`Judge` (`semnav_env/judge/judge.py`) runs the same follower on the true scene and gives each
-clause a `Verdict`.
+`Judge` (`semnav_env/judge/judge.py`) runs the same follower on the true scene, once for each right
+answer (`semnav_env/judge/readings.py`), and gives each clause a `Verdict`.
 
 **An action.** `Actions.twist` (`semnav_env/robots/actions.py`) turns the action into a velocity.
 `drive` (`semnav_env/world/physics/drive.py`) bounds its acceleration and lets Chipmunk, the

@@ -1,4 +1,4 @@
-"""The first command of the README, from its own start: the door that the robot stands in counts."""
+"""The first command of the README, from its own start: doors that were passed count on."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from semnav_agents.base import steps
 from semnav_env.env import SemNavEnv
 
 
-@pytest.mark.parametrize("seed", [4, 5, 8])
+@pytest.mark.parametrize("seed", [4, 5, 7, 8])
 def test_the_second_door_stays_the_second_while_it_is_passed(seed: int) -> None:
     agent = make_agent("scripted")
     env = SemNavEnv("wheelchair", "heidelberg_hallway", observation=agent.observation)

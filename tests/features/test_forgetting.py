@@ -64,6 +64,18 @@ def test_only_a_good_view_speaks_against_a_door(pose: Pose) -> None:
     assert memory.size[1] == 1
 
 
+@pytest.mark.parametrize(
+    ("pose", "kept"),
+    [((0.0, 0.0, 0.0), 0), ((0.0, 1.7, 0.0), 1), ((3.5, 1.2, 0.0), 1), ((3.5, 0.0, 0.0), 0)],
+    ids=["square", "in the doorway", "along the wall", "at an angle"],
+)
+def test_a_view_along_its_wall_keeps_a_door_whose_jambs_it_passes(pose: Pose, kept: int) -> None:
+    memory = SceneMemory()
+    see(memory, doors=[AHEAD], scans=4)
+    see(memory, ranges=np.full(360, 9.0), pose=pose)
+    assert memory.size[1] == kept
+
+
 @pytest.mark.parametrize("hidden", [slice(0, 255), slice(286, 360)], ids=["right", "left"])
 def test_a_view_of_one_side_is_no_evidence_on_a_door(
     hidden: slice,

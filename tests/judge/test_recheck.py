@@ -17,7 +17,7 @@ from semnav_agents.evaluation import drive
 from semnav_agents.oracle import OracleAgent
 from semnav_env.env import SemNavEnv
 from semnav_env.judge import FAILURES, Judge, Verdict, plan_mission
-from semnav_env.judge import judge as first
+from semnav_env.judge import reading_judge as first
 from semnav_env.judge import recheck as second
 from semnav_env.judge.astray import wrong_arms
 from semnav_env.judge.metrics import Recording
@@ -142,7 +142,7 @@ def test_a_disagreement_is_told() -> None:
     env = SemNavEnv(observation="truth", max_seconds=25.0)
     driven = drive(env, OracleAgent(), 0, {})
     assert driven.judge.success
-    driven.judge.failure = Verdict.WRONG_DOOR
+    driven.judge.leading.failure = Verdict.WRONG_DOOR
     assert driven.rechecked() == "done"
 
 
@@ -191,4 +191,6 @@ def test_the_second_opinion_imports_no_judge_or_follower() -> None:
     tree = ast.parse(Path(second.__file__).read_text())
     names = {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
     names |= {a.name for node in ast.walk(tree) if isinstance(node, ast.Import) for a in node.names}
-    assert not [name for name in names if "judge.judge" in name or "follower" in name]
+    assert not [
+        name for name in names if name.endswith(("judge.judge", "reading_judge", "follower"))
+    ]

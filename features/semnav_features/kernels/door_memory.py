@@ -238,7 +238,7 @@ def look_at(
     width = math.hypot(dx, dy)
     away = math.hypot(x + 0.5 * dx, y + 0.5 * dy)
     distance = abs(x * dy - y * dx) / width
-    if away > MAX_LOOK_DISTANCE or distance < max(MIN_LINE_DISTANCE, MIN_INCIDENCE_COSINE * away):
+    if away > MAX_LOOK_DISTANCE or looks_along(door, pose[0], pose[1]):
         return UNKNOWN
     # The opening spans the angle width * distance / away^2: fewer beams than looks tell nothing.
     if width * distance < LOOK_BEAMS * angle_increment * away * away:
@@ -259,6 +259,16 @@ def look_at(
         if not beyond > -OPENING_DEPTH:
             return UNKNOWN
     return OPEN
+
+
+@kernel
+def looks_along(door: Any, x: float, y: float) -> bool:
+    """Whether who stands at (x, y) looks along the wall of a door, and so cannot judge it."""
+    dx, dy = door.end_x - door.start_x, door.end_y - door.start_y
+    x, y = door.start_x - x, door.start_y - y
+    away = math.hypot(x + 0.5 * dx, y + 0.5 * dy)
+    distance = abs(x * dy - y * dx) / math.hypot(dx, dy)
+    return bool(distance < max(MIN_LINE_DISTANCE, MIN_INCIDENCE_COSINE * away))
 
 
 @kernel

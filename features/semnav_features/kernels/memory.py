@@ -9,7 +9,12 @@ import numpy as np
 
 from semnav_features.frames import FloatArray, Point, Pose
 from semnav_features.kernels.compiling import kernel
-from semnav_features.kernels.door_memory import door_counts, doubt_unseen_doors, remember_door
+from semnav_features.kernels.door_memory import (
+    door_counts,
+    doubt_unseen_doors,
+    looks_along,
+    remember_door,
+)
 from semnav_features.kernels.drift import PRIOR, corrected, with_sighting
 from semnav_features.kernels.lanes import WIDTH, bits, first_lanes
 from semnav_features.kernels.layout import DOORS, WALLS
@@ -72,9 +77,6 @@ shorter."""
 
 JAMB_DEPTH = 0.15
 """Distance from the opening at which a jamb is looked at, metres."""
-
-NEAR_DOORWAY = 1.0
-"""Distance from the middle of a door within which a view does not judge its jambs, metres."""
 
 MAX_END_OFFSET = SAME_LINE_OFFSET + 0.1 * SAME_LINE_GAP
 """A wall is not on a line if both of its ends lie farther than this to one side of it, metres. The
@@ -206,7 +208,7 @@ def jambs_of(door: Ends) -> tuple[Point, Point]:
 def forget_passed(memory: Memory) -> None:
     """Forget short walls, and doors, where the newest view passes: they moved on.
 
-    A view from within a doorway tells nothing of its jambs: it looks along the wall.
+    A view along the wall of a door tells nothing of its jambs: it grazes them.
     """
     walls, doors, state, views = memory
     used, seen = state[0], views[0]
@@ -223,9 +225,8 @@ def forget_passed(memory: Memory) -> None:
             walls[HITS, k] = 0.0
     for k in range(used.doors):
         door = doors[k]
-        x = 0.5 * (door.start_x + door.end_x) - seen.places[newest, 0]
-        y = 0.5 * (door.start_y + door.end_y) - seen.places[newest, 1]
-        if door.log_odds <= 0.0 or x * x + y * y < NEAR_DOORWAY**2:
+        place = seen.places[newest]
+        if door.log_odds <= 0.0 or looks_along(door, place[0], place[1]):
             continue
         first, last = jambs_of((door.start_x, door.start_y, door.end_x, door.end_y))
         if (

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from semnav_env.judge import plan_goals
 from semnav_env.judge.episodes.episode import Episode, Expected, StaleEpisodeError
-from semnav_env.judge.routes.room_guide import RoomGuide
+from semnav_env.judge.readings import answers
 from semnav_env.language import Command, CommandError, parse
 from semnav_env.language.corpora.meanings import key_of
 from semnav_env.mind.grounding import GroundingError
@@ -49,7 +48,7 @@ def _faults(episode: Episode, plan: FloorPlan, geodesic: Geodesic) -> Iterator[s
         yield f'{episode.id}: "{episode.command}" now means "{said}"'
     for command in meanings:
         try:
-            plan_goals(plan, command, episode.start, RoomGuide(plan, command, geodesic))
+            answers(plan, geodesic, command, episode.start)
             impossible = ""
         except GroundingError as error:
             impossible = str(error)

@@ -11,6 +11,7 @@ from semnav_env.judge import plan_goals
 from semnav_env.judge.episodes.ambiguity_filter import AmbiguityFilter
 from semnav_env.judge.episodes.random_clauses import CommandTopic, RandomClauses
 from semnav_env.judge.goals import check_grounded
+from semnav_env.judge.readings import answers
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.judge.tasks.starts import leads_on
 from semnav_env.language import (
@@ -106,6 +107,7 @@ class Drafter:
                 impossible
                 and self._follows(before, last)
                 and self.ambiguity_filter.impossible(last, begin)
+                and not self._has_an_answer((*before, last))
             ):
                 return Command((*before, last))
         return None
@@ -164,6 +166,14 @@ class Drafter:
             return len(plan_goals(self._plan, command, self.start, guide))
         except GroundingError:
             return 0
+
+    def _has_an_answer(self, clauses: tuple[Clause, ...]) -> bool:
+        """Whether clauses can be carried out in some reading of the floor plan."""
+        try:
+            answers(self._plan, self._geodesic, Command(clauses), self.start)
+        except GroundingError:
+            return False
+        return True
 
     def _begin_after(self, clauses: tuple[Clause, ...]) -> Pose:
         """Pose at which the clause after some others begins."""

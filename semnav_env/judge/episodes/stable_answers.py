@@ -1,7 +1,7 @@
-"""Drops commands whose right answer depends on a few centimetres of the plan or of the start.
+"""Drops commands that mean something else if the plan or the start differs by a few centimetres.
 
-A robot sees walls to some centimetres, and people do not measure doors. While the answer to a
-command changes if walls move by 3 cm, no robot can be blamed for another answer.
+A robot sees walls to some centimetres, and people do not measure doors. If walls move by 3 cm, and
+a command then leads to a place that the judge does not accept, nobody can blame a robot for it.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from typing import NamedTuple
 import numpy as np
 
 from semnav_env.judge.goals import goals_in_turn
-from semnav_env.judge.routes.room_guide import RoomGuide
+from semnav_env.judge.readings import Answer, answers, same_answer
 from semnav_env.language import Command
 from semnav_env.mind.grounding import GroundingError
-from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal
+from semnav_env.mind.grounding.goal import Goal
 from semnav_env.mind.grounding.ways import KnownWays
 from semnav_env.world.maps.floor_plan import FloorPlan, PlanDoor, Surface
 from semnav_env.world.maps.geodesic import Geodesic
@@ -39,12 +39,9 @@ LIMIT_CHANGE = 0.1
 TIMES = 5
 """Number of times that walls and start are moved."""
 
-SAME_SHARE = 0.5
-"""Share of the judge's tolerances within which two goals are the same."""
-
 
 class Variant(NamedTuple):
-    """Another view of a plan, in which a command should have the same answer.
+    """Another view of a plan, in which a command should have an accepted answer or none.
 
     Attributes:
         cause: what was changed: "walls", "start" or "limits".
@@ -59,7 +56,11 @@ class Variant(NamedTuple):
 
 @dataclass(eq=False)
 class StableAnswers:
-    """Tells which commands keep their answer in every `Variant` of a floor plan.
+    """Tells which commands lead to accepted places alone in every `Variant` of a floor plan.
+
+    A variant in which a command cannot be carried out says nothing: its speaker presupposes that it
+    can. So of a command that cannot be carried out in the plan, every variant that can says that it
+    is not surely impossible.
 
     Attributes:
         plan: the floor plan.
@@ -68,38 +69,21 @@ class StableAnswers:
     plan: FloorPlan
 
     def change(self, command: Command, start: Pose) -> str | None:
-        """The cause of the first variant that gives another answer; None if there is none."""
-        guide = RoomGuide(self.plan, command, self.plan.derived(Geodesic))
-        answer = self.answer(command, start, guide)
+        """The cause of the first variant with an answer that is not accepted; None without one."""
+        accepted = self.accepted(command, start)
+        ways = KnownWays(accepted[0].ways if accepted else {})
         for variant in self.variants:
-            moved = compose(start, variant.shift)
-            found = self.answer(command, moved, KnownWays(guide.ways), variant.scene)
-            if not same_answer(answer, found):
+            found = answer_in(variant, self.plan, command, start, ways)
+            if found and not any(same_answer(found, each.goals) for each in accepted):
                 return variant.cause
         return None
 
-    def answer(
-        self,
-        command: Command,
-        start: Pose,
-        guide: RoomGuide | KnownWays,
-        scene: StillScene | None = None,
-    ) -> tuple[Goal, ...]:
-        """The goals of a command, as far as it can be carried out.
-
-        Args:
-            command: what is said.
-            start: where, world frame.
-            guide: tells the ways to rooms.
-            scene: that of a `Variant`; None for the plan's own.
-        """
-        goals: tuple[Goal, ...] = ()
+    def accepted(self, command: Command, start: Pose) -> tuple[Answer, ...]:
+        """The right answers to a command; empty if it cannot be carried out."""
         try:
-            for _, goal in goals_in_turn(self.plan, command, start, guide, scene=scene):
-                goals += (goal,)
+            return answers(self.plan, self.plan.derived(Geodesic), command, start)
         except GroundingError:
-            pass
-        return goals
+            return ()
 
     @cached_property
     def variants(self) -> tuple[Variant, ...]:
@@ -118,19 +102,16 @@ class StableAnswers:
             yield replace(self.plan.scene, opening_slack=change)
 
 
-def same_answer(one: tuple[Goal, ...], other: tuple[Goal, ...]) -> bool:
-    """Whether two sequences of goals lead to the same places."""
-    return len(one) == len(other) and all(map(same_goal, one, other))
-
-
-def same_goal(one: Goal, other: Goal) -> bool:
-    """Whether two goals are through the same door, or at the same place before the same door."""
-    if isinstance(one, PassGoal) and isinstance(other, PassGoal):
-        return one.door.name == other.door.name
-    if isinstance(one, ReachGoal) and isinstance(other, ReachGoal):
-        names = [(g.door and g.door.name, g.beside and g.beside.name) for g in (one, other)]
-        return names[0] == names[1] and one.reached_by(other.pose, SAME_SHARE)
-    return one.kind == other.kind
+def answer_in(
+    variant: Variant, plan: FloorPlan, command: Command, start: Pose, ways: KnownWays
+) -> tuple[Goal, ...] | None:
+    """The goals of a command in a variant of a plan; None if it cannot be carried out there."""
+    moved = compose(start, variant.shift)
+    try:
+        found = goals_in_turn(plan, command, moved, ways, scene=variant.scene)
+        return tuple(goal for _, goal in found)
+    except GroundingError:
+        return None
 
 
 def moved_walls(plan: FloorPlan, rng: np.random.Generator) -> FloorPlan:

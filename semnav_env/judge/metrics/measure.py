@@ -38,7 +38,7 @@ def measure(recording: Recording, judge: Judge, robot: RobotSpec) -> Metrics:
         robot: the robot that drove.
     """
     path, route = recording.path, judge.mission.route
-    driven_length, route_length = path_length(path), judge.mission.route_length
+    driven_length, route_length = path_length(path), judge.route_length
     goals = judge.mission.goals
     goal = place(goals[-1]) if goals else judge.mission.start[:2]
     distances = geodesic_distances(judge.mission.geodesic.to(goal), path)

@@ -71,12 +71,14 @@ class PlanDoor:
         start: one jamb, (x, y) in metres.
         end: the other jamb.
         open: whether a robot may pass; a closed door's leaf fills the opening.
+        is_door: whether it is a door or a mere opening of the wall; None if its width tells.
     """
 
     name: str
     start: Point
     end: Point
     open: bool = True
+    is_door: bool | None = None
 
     @property
     def midpoint(self) -> Point:
@@ -90,10 +92,24 @@ class PlanDoor:
 
     def counts(self, rules: DoorRules) -> bool:
         """Whether "the second door" counts it: it is open, and as wide as a door."""
+        if self.is_door is not None:
+            return self.open and self.is_door
         return self.open and rules.narrowest <= self.width <= rules.widest
+
+    def is_doubtful(self, rules: DoorRules, doubt: float) -> bool:
+        """Whether it is open, and only a little wider or narrower than a door.
+
+        Args:
+            rules: widths of doors.
+            doubt: how much wider than the widest, or narrower than the narrowest, metres.
+        """
+        beyond = max(self.width - rules.width_max, rules.width_min - self.width)
+        return self.open and 0.0 < round(beyond, 3) <= doubt  # a door drawn 1.2 m wide is no wider
 
     def is_opening(self, rules: DoorRules) -> bool:
         """Whether it is too wide for a door, open or not: an opening of the wall."""
+        if self.is_door is not None:
+            return not self.is_door and self.width > rules.width_max
         return self.width > rules.widest
 
     def as_door(self) -> Door:

@@ -9,9 +9,11 @@ import pytest
 import shapely
 
 from semnav_env.judge.episodes import evenly, load_episodes
-from semnav_env.judge.episodes.stable_answers import StableAnswers, moved_walls, same_goal
+from semnav_env.judge.episodes.stable_answers import StableAnswers, answer_in, moved_walls
+from semnav_env.judge.readings import same_goal
 from semnav_env.language import parse
 from semnav_env.mind.grounding.goal import ReachGoal, StopGoal
+from semnav_env.mind.grounding.ways import KnownWays
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_env.world.maps.importers import import_map
 from tests.support.kth_floors import floor, hall, long_floor, room
@@ -30,15 +32,33 @@ def test_a_command_far_from_every_limit_keeps_its_answer(tmp_path: Path) -> None
         assert stable.change(parse(said), START) is None
 
 
-@pytest.mark.parametrize("width", [0.72, 1.22, 1.3])
-def test_an_answer_hangs_on_a_door_that_hardly_counts(tmp_path: Path, width: float) -> None:
+def two_doors(width: float, folder: Path) -> StableAnswers:
+    """Two doors to the left, of which the first has the given width."""
     doors = ((2.0, 2.0 + width), (6.0, 6.9))
     text = floor(hall(doors), room("2", door=doors[0]), room("3", door=doors[1], west=4.5))
-    stable = StableAnswers(plan_of(text, tmp_path))
-    assert stable.change(parse("go through the first door on the left"), START) in (
-        "walls",
-        "limits",
-    )
+    return StableAnswers(plan_of(text, folder))
+
+
+@pytest.mark.parametrize("width", [0.72, 1.18])
+def test_an_answer_hangs_on_a_door_that_hardly_counts(tmp_path: Path, width: float) -> None:
+    stable = two_doors(width, tmp_path)
+    assert stable.change(parse("go through the first door on the left"), START) == "limits"
+
+
+@pytest.mark.parametrize("width", [0.66, 1.22, 1.3])
+def test_a_command_with_two_right_answers_is_kept(tmp_path: Path, width: float) -> None:
+    stable = two_doors(width, tmp_path)
+    command = parse("go through the first door on the left")
+    assert len(stable.accepted(command, START)) == 2
+    assert stable.change(command, START) is None
+
+
+def test_a_variant_in_which_a_command_is_impossible_says_nothing(tmp_path: Path) -> None:
+    stable = two_doors(0.72, tmp_path)
+    second = parse("go through the second door on the left")
+    found = [answer_in(each, stable.plan, second, START, KnownWays({})) for each in stable.variants]
+    assert None in found
+    assert stable.change(second, START) is None
 
 
 def test_what_a_command_does_not_speak_of_does_not_matter(tmp_path: Path) -> None:
