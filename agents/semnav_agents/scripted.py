@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
 from semnav_agents.pilot import Pilot
+from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
 from semnav_agents.planning.moving import MovingHits
 from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
 from semnav_env.mind.observations import (
@@ -61,6 +62,8 @@ class ScriptedAgent:
         doors = table(observation, "remembered_doors").astype(np.float64)
         bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
         walls = points_to_parent(pose, bumps).reshape(-1, 4)
-        points = np.vstack((self._obstacles.points(), points_of_segments(walls)))
+        points: Obstacles = self._obstacles
+        if len(walls):
+            points = JoinedObstacles((points, as_obstacles(points_of_segments(walls))))
         pace = read_pace(observation)
         return self._pilot.act(points, doors, goal, pose, velocity, moving, pace)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,13 @@ from numpy.typing import NDArray
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.memory import MEMORY_STATE
-from semnav_features.kernels.past_views import FREE, PAST_VIEWS, look_back, note_view
+from semnav_features.kernels.past_views import (
+    FREE,
+    PAST_VIEWS,
+    look_back,
+    may_be_free,
+    note_view,
+)
 
 MAX_DISTANCE = 5.0
 """Distance beyond which nothing that moves matters to a robot, metres."""
@@ -65,12 +72,17 @@ def mark_moving(
 ) -> None:
     """Write which beams end on something that moves, and keep the scan as a view if one is due."""
     first, length, last_x, last_y = -1, 0.0, 0.0, 0.0
+    c, s = math.cos(pose[2] + start), math.sin(pose[2] + start)  # of the beam, to some 1e-13
+    turn_c, turn_s = math.cos(step), math.sin(step)
     for i in range(len(ranges) + 1):
         is_free, x, y = False, 0.0, 0.0
         if i < len(ranges) and 0.05 < ranges[i] < MAX_DISTANCE:
-            angle = pose[2] + start + i * step
-            x, y = pose[0] + ranges[i] * np.cos(angle), pose[1] + ranges[i] * np.sin(angle)
-            is_free = look_back(x, y, used.views, views) == FREE
+            rough_x, rough_y = pose[0] + ranges[i] * c, pose[1] + ranges[i] * s
+            if may_be_free(rough_x, rough_y, used.views, views):
+                angle = pose[2] + start + i * step
+                x, y = pose[0] + ranges[i] * np.cos(angle), pose[1] + ranges[i] * np.sin(angle)
+                is_free = look_back(x, y, used.views, views) == FREE
+        c, s = turn_c * c - turn_s * s, turn_c * s + turn_s * c
         if is_free:
             if first < 0:
                 first, length = i, 0.0

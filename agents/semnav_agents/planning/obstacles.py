@@ -9,8 +9,10 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from semnav_agents.planning.free import points_around
 from semnav_agents.planning.obstacle_kernels import (
     CENTRE,
+    TABLE_SIDE,
     MemoryClock,
     add_hits,
     forget,
@@ -65,6 +67,7 @@ class ObstacleMemory:
     def __init__(self, settings: MemorySettings | None = None) -> None:
         self.settings = settings or MemorySettings()
         self._centres = np.zeros(self.settings.capacity, dtype=CENTRE)
+        self._table, self._blank = np.full((2, TABLE_SIDE, TABLE_SIDE), -1, np.int32)
         self.reset()
 
     def reset(self) -> None:
@@ -104,9 +107,10 @@ class ObstacleMemory:
         now = MemoryClock(float(self._scan), self._travel, self._turned)
         max_age = MemoryClock(float(s.scans), s.travel, s.turned)
         pose = lidar_pose_in_odom
-        self._count, table = forget(
+        self._count = forget(
             self._centres,
             self._count,
+            self._table,
             pose,
             distances,
             directions,
@@ -119,7 +123,7 @@ class ObstacleMemory:
         self._count = add_hits(
             self._centres,
             self._count,
-            table,
+            self._table,
             pose,
             distances,
             directions,
@@ -132,8 +136,15 @@ class ObstacleMemory:
 
     def points(self) -> FloatArray:
         """The obstacles, metres in the odometry frame, shape (N, 2)."""
-        s = self.settings
-        chosen: FloatArray = select(self._centres[: self._count], s.sure, s.share, s.blunt)
+        return self._select(0.0, 0.0, math.inf)
+
+    def near(self, pose: Pose, reach: float) -> FloatArray:
+        """Those of `points` around a pose, see `points_around`."""
+        return points_around(pose, self._select(pose[0], pose[1], reach), reach)
+
+    def _select(self, x: float, y: float, reach: float) -> FloatArray:
+        s, centres = self.settings, self._centres[: self._count]
+        chosen: FloatArray = select(centres, self._blank, x, y, reach, s.sure, s.share, s.blunt)
         return chosen
 
     def _advance(self, pose: Pose) -> None:
