@@ -110,7 +110,8 @@ def test_episodes_driven_together_end_as_driven_alone() -> None:
     agent = make_agent("scripted")
     env = SemNavEnv(observation=agent.observation, max_seconds=EPISODE_SECONDS)
     alone = [drive(env, agent, job.seed, job.options(env)) for job in jobs]
-    assert together == [job.result(driven, NO_EXTRAS) for job, driven in zip(jobs, alone, strict=True)]
+    pairs = zip(jobs, alone, strict=True)
+    assert together == [job.result(driven, NO_EXTRAS) for job, driven in pairs]
 
 
 def test_an_agent_can_be_used_for_one_episode_after_another() -> None:
