@@ -12,7 +12,7 @@ from semnav_agents.floors import BlindAgent, RandomAgent
 from semnav_agents.hearing.agent import HearingAgent, hearing_names, hears
 from semnav_agents.learned import LearnedAgent, pretrained_names
 from semnav_agents.oracle import OracleAgent
-from semnav_agents.scripted import ScriptedAgent
+from semnav_agents.scripted import ScriptedAgent, ScriptedTeam
 from semnav_agents.searching.agent import Explorer, PlanSearcher
 from semnav_agents.team import AgentsOneByOne, AgentTeam
 
@@ -76,6 +76,8 @@ def make_team(source: AgentSource, robots: int) -> AgentTeam:
     Raises:
         ValueError: as `make_agent`.
     """
+    if source in ("scripted", ScriptedAgent):
+        return ScriptedTeam(robots)
     return AgentsOneByOne([make_agent(source) for _ in range(robots)])
 
 

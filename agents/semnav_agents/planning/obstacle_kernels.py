@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_features.frames import FloatArray, Pose
+from semnav_features.frames import FloatArray, Pose, wrap_angle
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.heading import rough_angle
 
@@ -24,9 +24,18 @@ CENTRE = np.dtype(
         ("scan", "f8"),
         ("travel", "f8"),
         ("turned", "f8"),
+        ("row", "i4"),
+        ("column", "i4"),
     ]
 )
-"""A centre: position in metres, number of hits, and the `MemoryClock` of the last hit."""
+"""A centre: position in metres, number of hits, the `MemoryClock` of the last hit, and its voxel in
+the table."""
+
+OBSTACLE_STATE = np.dtype(
+    [(name, "f8") for name in ("scan", "travel", "turned", "x", "y", "heading")] + [("count", "i8")]
+)
+"""The `MemoryClock` of the last scan, the lidar's pose then, metres and radians, odometry frame,
+and the number of centres; shape (1,)."""
 
 VOXEL = 0.05
 """Side of a voxel of the table, metres; a voxel holds at most one centre."""
@@ -59,6 +68,56 @@ class MemoryClock(NamedTuple):
     turned: float
 
 
+class MemoryLimits(NamedTuple):
+    """Those of `MemorySettings` that decide what is remembered."""
+
+    radius: float
+    merge: float
+    window: int
+    through: float
+    max_age: MemoryClock
+
+
+@kernel
+def remember(
+    state: Any,
+    centres: NDArray[Any],
+    table: NDArray[np.int32],
+    pose: Pose,
+    ranges: FloatArray,
+    directions: FloatArray,
+    range_max: float,
+    limits: MemoryLimits,
+) -> None:
+    """Add one scan to a memory.
+
+    Args:
+        state: an entry of dtype `OBSTACLE_STATE`, changed in place.
+        centres: dtype `CENTRE`, changed in place.
+        table: of voxels, shape (TABLE_SIDE, TABLE_SIDE); -1 everywhere, before and after, so that
+            many memories may share one.
+        pose: of the lidar, odometry frame.
+        ranges: metres, shape (n,).
+        directions: unit vectors of the beams, lidar frame, shape (n, 2).
+        range_max: metres.
+        limits: of the memory.
+    """
+    if state.scan > 0.0:
+        state.travel += math.hypot(pose[0] - state.x, pose[1] - state.y)
+        state.turned += abs(wrap_angle(pose[2] - state.heading))
+    state.x, state.y, state.heading = pose
+    state.scan += 1.0
+    now = MemoryClock(state.scan, state.travel, state.turned)
+    state.count = _forget(
+        centres, state.count, table, pose, ranges, directions, range_max, now, limits
+    )
+    state.count = _add_hits(
+        centres, state.count, table, pose, ranges, directions, range_max, now, limits
+    )
+    for k in range(state.count):
+        table[centres[k].row, centres[k].column] = -1
+
+
 @kernel
 def slot(x: float, y: float) -> tuple[int, int]:
     """Place of a point in the wrapped table."""
@@ -66,7 +125,7 @@ def slot(x: float, y: float) -> tuple[int, int]:
 
 
 @kernel
-def forget(
+def _forget(
     centres: NDArray[Any],
     count: int,
     table: NDArray[np.int32],
@@ -75,19 +134,14 @@ def forget(
     directions: FloatArray,
     range_max: float,
     now: MemoryClock,
-    max_age: MemoryClock,
-    radius: float,
-    through: float,
+    limits: MemoryLimits,
 ) -> int:
     """Drop centres that are old, far away or seen through; join those that are close together.
 
-    The table from voxels to centres (-1: none) is written anew.
-
     Returns:
-        the number of centres left, which are moved to the front.
+        the number of centres left, which are moved to the front and put into the table.
     """
-    table[:] = -1
-    beams = _beams_of(pose, directions)
+    beams, max_age = _beams_of(pose, directions), limits.max_age
     kept = 0
     for k in range(count):
         centre = centres[k]
@@ -96,9 +150,9 @@ def forget(
             or now.travel - centre.travel > max_age.travel
             or now.turned - centre.turned > max_age.turned
         )
-        if old or math.hypot(centre.x - pose[0], centre.y - pose[1]) > radius + 0.2:
+        if old or math.hypot(centre.x - pose[0], centre.y - pose[1]) > limits.radius + 0.2:
             continue
-        if _seen_through(beams, centre.x, centre.y, ranges, range_max, through):
+        if _seen_through(beams, centre.x, centre.y, ranges, range_max, limits.through):
             centre.hits = 0.5 * min(centre.hits, 40.0)
             if centre.hits < 1.0:
                 continue
@@ -111,6 +165,7 @@ def forget(
         else:
             table[j, i] = kept
             centres[kept] = centre
+            centres[kept].row, centres[kept].column = j, i
             kept += 1
     return kept
 
@@ -182,7 +237,7 @@ def _seen_through(
 
 
 @kernel
-def add_hits(
+def _add_hits(
     centres: NDArray[Any],
     count: int,
     table: NDArray[np.int32],
@@ -191,19 +246,17 @@ def add_hits(
     directions: FloatArray,
     range_max: float,
     now: MemoryClock,
-    radius: float,
-    merge: float,
-    window: int,
+    limits: MemoryLimits,
 ) -> int:
     """Refine the nearest centre with each hit, or make a new one; returns the number of centres."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
-    reach = min(radius, range_max)
+    reach = min(limits.radius, range_max)
     for k in range(len(ranges)):
         if not 0.05 < ranges[k] < reach:
             continue
         px, py = ranges[k] * directions[k, 0], ranges[k] * directions[k, 1]
         x, y = pose[0] + c * px - s * py, pose[1] + s * px + c * py
-        near = nearest(centres, table, x, y, merge)
+        near = nearest(centres, table, x, y, limits.merge)
         if near < 0:
             j, i = slot(x, y)
             if count >= len(centres) or table[j, i] >= 0:
@@ -211,10 +264,11 @@ def add_hits(
             near = count
             table[j, i] = near
             centres[near].x, centres[near].y, centres[near].hits = x, y, 0.0
+            centres[near].row, centres[near].column = j, i
             count += 1
         centre = centres[near]
         centre.hits += 1.0
-        weight = 1.0 / min(centre.hits, window)
+        weight = 1.0 / min(centre.hits, limits.window)
         centre.x += weight * (x - centre.x)
         centre.y += weight * (y - centre.y)
         centre.scan, centre.travel, centre.turned = now.scan, now.travel, now.turned
