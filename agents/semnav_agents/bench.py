@@ -6,7 +6,7 @@ Processor time is measured, because other programs on the machine change it less
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import cycle
 
 import numpy as np
@@ -41,7 +41,7 @@ def agent_timings(robot: str, episodes: str, robots: int, runs: int, steps: int)
 class _Drives:
     """Robots that the scripted agent drives through episodes, over and over."""
 
-    def __init__(self, robot: str, robots: int, episodes: list[Episode]) -> None:
+    def __init__(self, robot: str, robots: int, episodes: Sequence[Episode]) -> None:
         self._team, self._robots = ScriptedTeam(robots), robots
         self._envs = SemNavVectorEnv(
             robots,

@@ -34,7 +34,8 @@ class EntryRows:
 
     def __init__(self, envs: Sequence[SemNavEnv], kinds: Sequence[EntryObservation]) -> None:
         self._envs, self._kinds, self._kind = envs, kinds, kinds[0]
-        self._extra = {each.name: envs[0].observation_space[each.name] for each in kinds[0].extra}
+        spaces: Any = envs[0].observation_space
+        self._extra = {each.name: spaces[each.name] for each in kinds[0].extra}
         self._tokens = np.stack([env.tokens.ravel() for env in envs]).astype(np.int16)
 
     def renew(self, index: int, env: SemNavEnv) -> None:

@@ -214,7 +214,7 @@ class Driver:
             self._refusals = 0
         if steering.done and self.path is not None and not self.path.complete:
             return STANDSTILL
-        return steering.slowed(share)
+        return steering if share == 1.0 else steering.slowed(share)
 
     def _must_plan(
         self, obstacles: Obstacles, target: DriveTarget, pose: Pose, barriers: Obstacles

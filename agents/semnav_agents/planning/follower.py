@@ -178,7 +178,8 @@ def _speed(
     off = max(0.0, 1.0 - abs(across) / 0.15 - abs(error) / 0.5)
     left_over = max(0.0, left_over)
     stop = min(math.sqrt(2.0 * s.braking * left_over), 2.0 * left_over + 0.02)
-    return min(max(planned * off, s.creep), stop)
+    speed: float = min(max(planned * off, s.creep), stop)
+    return speed
 
 
 @kernel
@@ -215,7 +216,7 @@ def _errors(
 @kernel
 def _direction(track: TrackArrays, leg: PathLeg, sample: int) -> float:
     """Direction of motion at a sample, radians."""
-    heading = track.poses[sample, 2]
+    heading: float = track.poses[sample, 2]
     if leg.kind == REVERSE:
         return heading + math.pi
     if leg.kind == SIDEWAYS:
@@ -226,7 +227,7 @@ def _direction(track: TrackArrays, leg: PathLeg, sample: int) -> float:
 @kernel
 def _ahead(track: TrackArrays, leg: PathLeg, sample: int, distance: float) -> int:
     """The sample so far ahead along a leg."""
-    there = np.searchsorted(track.distance, track.distance[sample] + distance)
+    there: int = np.searchsorted(track.distance, track.distance[sample] + distance)
     return min(max(sample, there), leg.last - 1)
 
 

@@ -50,7 +50,8 @@ class Perception:
             ObstacleMemory(settings, (state[k : k + 1], centres[k : k + 1], table))
             for k in range(robots)
         ]
-        self._directions = self._moving = np.empty((robots, 0, 2))
+        self._directions = np.empty((robots, 0, 2))
+        self._moving = np.zeros((robots, 0), np.bool_)
 
     def reset(self, index: int, mount: Pose, lidar: LidarSpec) -> None:
         """Forget everything about a robot, and take its lidar."""

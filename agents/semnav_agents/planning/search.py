@@ -193,7 +193,8 @@ def connect(
 @kernel
 def _cells_across(field: ObstacleField) -> int:
     """Number of bins of position along a side of the window."""
-    return math.ceil(field.distance.shape[0] * FIELD_CELL / POSITION_BIN)
+    cells: int = math.ceil(field.distance.shape[0] * FIELD_CELL / POSITION_BIN)
+    return cells
 
 
 @kernel
