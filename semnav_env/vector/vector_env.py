@@ -167,10 +167,10 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         """New observations of all robots.
 
         Raises:
-            RuntimeError: a robot has begun no episode, or its command or options were refused.
+            RuntimeError: a robot has never begun an episode.
         """
-        self._check_begun()
         if self._team is None:
+            self._check_begun()
             self._gather()
         return self._observations.observe(self._gathered)
 

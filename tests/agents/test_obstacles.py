@@ -88,7 +88,7 @@ def test_what_is_behind_is_kept_until_the_robot_has_driven_far():
     assert not (distance_to(behind, points) < 0.05).any()
 
 
-@pytest.mark.parametrize("reach", [0.4, 1.65, 4.0])
+@pytest.mark.parametrize("reach", [0.4, 1.65, 2.5])
 @pytest.mark.parametrize("pose", [(0.0, 0.0, 0.0), (1.2, -0.7, 2.0), (-2.9, 1.9, -1.0)])
 def test_the_points_near_a_pose_are_those_of_all_points(pose, reach):
     memory = ObstacleMemory()
