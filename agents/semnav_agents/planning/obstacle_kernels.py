@@ -182,7 +182,7 @@ def join(into: Any, other: Any) -> None:
     into.turned = max(into.turned, other.turned)
 
 
-class Beams(NamedTuple):
+class LidarBeams(NamedTuple):
     """Where a lidar is and how its beams lie.
 
     Attributes:
@@ -205,18 +205,18 @@ class Beams(NamedTuple):
 
 
 @kernel
-def _beams_of(pose: Pose, directions: FloatArray) -> Beams:
+def _beams_of(pose: Pose, directions: FloatArray) -> LidarBeams:
     """The beams of a lidar at a pose, from their unit vectors in the lidar frame, shape (n, 2)."""
     ux, uy = directions[0]
     increment = math.atan2(
         ux * directions[1, 1] - uy * directions[1, 0], ux * directions[1, 0] + uy * directions[1, 1]
     )
-    return Beams(pose[0], pose[1], math.cos(pose[2]), math.sin(pose[2]), ux, uy, increment)
+    return LidarBeams(pose[0], pose[1], math.cos(pose[2]), math.sin(pose[2]), ux, uy, increment)
 
 
 @kernel
 def _seen_through(
-    beams: Beams, x: float, y: float, ranges: FloatArray, range_max: float, through: float
+    beams: LidarBeams, x: float, y: float, ranges: FloatArray, range_max: float, through: float
 ) -> bool:
     """Whether the three beams nearest to a point all reach farther than `through` behind it."""
     dx, dy = x - beams.x, y - beams.y
