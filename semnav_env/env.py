@@ -188,11 +188,16 @@ class SemNavEnv(GymnasiumEnv[Any]):
         Raises:
             ValueError: an observation of the user's own type is not in its space.
         """
-        told = self.tokens, self.instruction, self.simulator.see, self.payload
-        observation = self.observation_type.observe(Moment(self.tracker, *told))
+        observation = self.observation_type.observe(self.moment)
         if type(self.observation_type) is not EntryObservation:  # which checks its own entries
             check_observation(observation, self.observation_space)
         return observation
+
+    @property
+    def moment(self) -> Moment:
+        """The data of this step from which observations are made."""
+        told = self.tokens, self.instruction, self.simulator.see, self.payload
+        return Moment(self.tracker, *told)
 
     def conclude(self, truncated: bool) -> dict[str, Any]:
         """End the episode, and return the entries of `info` that are added at its end."""

@@ -6,8 +6,8 @@ from semnav_features.lazy_names import lazy_names
 
 if TYPE_CHECKING:
     from semnav_agents.base import Agent
-    from semnav_agents.registry import make_agent
+    from semnav_agents.registry import make_agent, make_team
 
-__all__ = ["Agent", "make_agent"]
+__all__ = ["Agent", "make_agent", "make_team"]
 
-__getattr__ = lazy_names(__name__, {".base": ("Agent",), ".registry": ("make_agent",)})
+__getattr__ = lazy_names(__name__, {".base": ("Agent",), ".registry": ("make_agent", "make_team")})

@@ -11,6 +11,12 @@ from semnav_agents.planning.doorway import barriers_across
 from semnav_agents.planning.driver import NO_POINTS, Driver
 from semnav_agents.planning.exit_via_door import ExitViaDoor
 from semnav_agents.planning.follower import Steering
+from semnav_agents.planning.known_obstacles import (
+    JoinedObstacles,
+    Obstacles,
+    PointObstacles,
+    as_obstacles,
+)
 from semnav_agents.planning.planner import DriveTarget
 from semnav_env.approach import DoorSide
 from semnav_env.language.clauses import Speed
@@ -66,7 +72,7 @@ class Pilot:
 
     def act(
         self,
-        points: FloatArray,
+        points: FloatArray | Obstacles,
         doors: FloatArray,
         goal: SeenGoal,
         pose: Pose,
@@ -77,7 +83,7 @@ class Pilot:
         """The next action.
 
         Args:
-            points: obstacles, shape (n, 2), in the frame of `pose`.
+            points: obstacles, or their points, shape (n, 2), in the frame of `pose`.
             doors: x and y of both jambs of the doors it knows, robot frame, shape (m, 4).
             goal: in the robot frame.
             pose: of the robot's centre.
@@ -92,23 +98,28 @@ class Pilot:
             forward, left, yaw_rate = (-sign(speed) for speed in self._last)
             speed = BACKING_SPEED
             return self._action(speed * forward, speed * left, BACKING_YAW_RATE * yaw_rate)
+        obstacles = as_obstacles(points)
         if goal.door is not None:
-            points = np.vstack((points, [to_parent(pose, jamb) for jamb in goal.door]))
-        others = barriers_across(_other_doors(doors, goal), self.robot)
-        barriers = points_to_parent(pose, others)
+            jambs = np.array([to_parent(pose, jamb) for jamb in goal.door])
+            obstacles = JoinedObstacles((obstacles, as_obstacles(jambs)))
+        barriers = PointObstacles(lambda: self._barriers(doors, goal, pose))
         door = _side(goal, pose)
         target = _target(goal, pose) if door is None else self._exit.target(door)
-        steering = self.driver.drive(points, target, pose, velocity, barriers, moving)
+        steering = self.driver.drive(obstacles, target, pose, velocity, barriers, moving)
         if door is not None:
-            self._note(steering, points)
+            self._note(steering, obstacles)
         self._last = steering.twist
         return self._action(*steering.twist)
 
-    def _note(self, steering: Steering, points: FloatArray) -> None:
+    def _barriers(self, doors: FloatArray, goal: SeenGoal, pose: Pose) -> FloatArray:
+        """Points across the doors that are not the goal's, in the frame of `pose`."""
+        return points_to_parent(pose, barriers_across(_other_doors(doors, goal), self.robot))
+
+    def _note(self, steering: Steering, obstacles: Obstacles) -> None:
         """Move on to the next pose through a door, or to another way if this one failed."""
         path = self.driver.path
         if path is not None and not path.complete:
-            if self._exit.failed(points, path.end):
+            if self._exit.failed(obstacles, path.end):
                 self.driver.plan_at_once()
         elif steering.done:
             self._exit.reached()

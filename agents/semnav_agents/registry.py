@@ -12,8 +12,9 @@ from semnav_agents.floors import BlindAgent, RandomAgent
 from semnav_agents.hearing.agent import HearingAgent, hearing_names, hears
 from semnav_agents.learned import LearnedAgent, pretrained_names
 from semnav_agents.oracle import OracleAgent
-from semnav_agents.scripted import ScriptedAgent
+from semnav_agents.scripted import ScriptedAgent, ScriptedTeam
 from semnav_agents.searching.agent import Explorer, PlanSearcher
+from semnav_agents.team import AgentsOneByOne, AgentTeam
 
 AgentSource: TypeAlias = str | Callable[[], Agent]
 """What an agent is made from, see `make_agent`."""
@@ -63,6 +64,21 @@ def make_agent(source: AgentSource) -> Agent:
     names = ", ".join((*_BUILT_IN, *pretrained_names(), *hearing_names()))
     more = "the folder of a trained one, or package.module:Class"
     raise ValueError(f"no agent {source!r}; there are: {names}, {more}")
+
+
+def make_team(source: AgentSource, robots: int) -> AgentTeam:
+    """Agents for many robots at once.
+
+    Args:
+        source: as `make_agent` takes it.
+        robots: how many there are.
+
+    Raises:
+        ValueError: as `make_agent`.
+    """
+    if source in ("scripted", ScriptedAgent):
+        return ScriptedTeam(robots)
+    return AgentsOneByOne([make_agent(source) for _ in range(robots)])
 
 
 def _imported_agent(location: str) -> Agent:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
@@ -9,8 +10,9 @@ from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
 from semnav_agents.pilot import Pilot
-from semnav_agents.planning.moving import MovingHits
-from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
+from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
+from semnav_agents.planning.obstacles import points_of_segments
+from semnav_agents.planning.perception import Perception
 from semnav_env.mind.observations import (
     EntryObservation,
     PaceEntry,
@@ -20,28 +22,102 @@ from semnav_env.mind.observations import (
     table,
 )
 from semnav_env.robots import RobotSpec
-from semnav_features.frames import compose, points_to_parent
+from semnav_env.world.maps import FloorPlan
+from semnav_features.frames import Pose, points_to_parent
 from semnav_features.lidar_spec import LidarSpec
+
+ENTRIES = (
+    *("scan", "goal", "odometry", "pace"),
+    *("remembered_doors", "remembered_doors_mask", "bumps", "bumps_mask"),
+)
+"""Entries of the observation that the scripted agent reads, "pace" if it is there."""
+
+
+class ScriptedTeam:
+    """Scripted agents for many robots, see `ScriptedAgent` and `AgentTeam`.
+
+    All scans are taken in by one compiled call; then each robot decides by itself.
+
+    Args:
+        robots: how many there are.
+    """
+
+    observation = EntryObservation("all", extra=(PaceEntry(),))
+
+    def __init__(self, robots: int) -> None:
+        self._perception = Perception(robots)
+        self._pilots: list[Pilot | None] = [None] * robots
+
+    def reset(self, index: int, info: dict[str, Any], floor_plan: FloorPlan | None = None) -> None:
+        """Begin an episode of a robot with the body and the lidar of `info`."""
+        body = RobotSpec(**info["robot"])
+        self._pilots[index] = Pilot(body)
+        self._perception.reset(index, body.lidar_mount, LidarSpec(**info["lidar"]))
+
+    def act(
+        self, observations: Observation, driven: Collection[int] | None = None
+    ) -> NDArray[np.float32]:
+        """The next actions, shape (n, action size); zeros for robots that do not drive.
+
+        Args:
+            observations: each entry of shape (n, size).
+            driven: numbers of the robots that drive; all if not given.
+
+        Raises:
+            ValueError: the observations lack the scan or the goal.
+        """
+        if not {"scan", "goal"} <= observations.keys():
+            raise ValueError('the scripted agent needs scan and goal: give observation="all"')
+        numbers = np.array(range(len(self._pilots)) if driven is None else list(driven), np.int64)
+        seen = {name: observations[name] for name in ENTRIES if name in observations}
+        self._perception.update(seen["odometry"], seen["scan"], numbers)
+        chosen = [
+            self._decide(k, {name: values[k] for name, values in seen.items()})
+            for k in numbers.tolist()
+        ]
+        actions = np.zeros((len(self._pilots), len(chosen[0])), np.float32)
+        actions[numbers] = chosen
+        return actions
+
+    def own_goal(self, index: int) -> Pose | None:
+        """None: robots drive to the goals of their beliefs."""
+
+    def _decide(self, index: int, observation: Observation) -> NDArray[np.float32]:
+        """The action of one robot, whose scan has been taken in."""
+        pilot = self._pilots[index]
+        assert pilot is not None
+        pose, velocity = read_odometry(observation)
+        obstacles: Obstacles = self._perception.obstacles[index]
+        bumps = table(observation, "bumps")
+        if len(bumps):
+            walls = points_to_parent(pose, bumps.reshape(-1, 2).astype(np.float64)).reshape(-1, 4)
+            obstacles = JoinedObstacles((obstacles, as_obstacles(points_of_segments(walls))))
+        return pilot.act(
+            obstacles,
+            table(observation, "remembered_doors").astype(np.float64),
+            SeenGoal.read(observation["goal"]),
+            pose,
+            velocity,
+            self._perception.moving(index, pose, observation["scan"]),
+            read_pace(observation),
+        )
 
 
 class ScriptedAgent:
     """Drives to the observed goal around obstacles that the lidar or the body has hit.
 
-    Goal, pace, odometry and scan come from the observation; body and lidar from `reset`.
+    Goal, pace, odometry and scan come from the observation; body and lidar from `reset`. It is a
+    `ScriptedTeam` of one.
     """
 
-    observation = EntryObservation("all", extra=(PaceEntry(),))
+    observation = ScriptedTeam.observation
 
     def __init__(self) -> None:
-        self._obstacles, self._moving = ObstacleMemory(), MovingHits()
+        self._team = ScriptedTeam(1)
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode with the body and the lidar of `info`."""
-        self._pilot = Pilot(RobotSpec(**info["robot"]))
-        self._lidar = LidarSpec(**info["lidar"])
-        self._beams = self._lidar.directions
-        self._obstacles.reset()
-        self._moving.reset()
+        self._team.reset(0, info)
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action.
@@ -49,18 +125,6 @@ class ScriptedAgent:
         Raises:
             ValueError: the observation lacks the scan or the goal.
         """
-        if not {"scan", "goal"} <= observation.keys():
-            raise ValueError('the scripted agent needs scan and goal: give observation="all"')
-        pose, velocity = read_odometry(observation)
-        lidar = compose(pose, self._pilot.robot.lidar_mount)
-        ranges, limit = observation["scan"], self._lidar.range_max
-        moves = self._moving.update(lidar, ranges, self._beams, limit)
-        self._obstacles.update(lidar, np.where(moves, 0.0, ranges), self._beams, limit)
-        moving = points_to_parent(lidar, ranges[moves, None] * self._beams[moves])
-        goal = SeenGoal.read(observation["goal"])
-        doors = table(observation, "remembered_doors").astype(np.float64)
-        bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
-        walls = points_to_parent(pose, bumps).reshape(-1, 4)
-        points = np.vstack((self._obstacles.points(), points_of_segments(walls)))
-        pace = read_pace(observation)
-        return self._pilot.act(points, doors, goal, pose, velocity, moving, pace)
+        seen = {name: observation[name][None] for name in ENTRIES if name in observation}
+        action: NDArray[np.float32] = self._team.act(seen)[0]
+        return action

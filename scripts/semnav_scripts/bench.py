@@ -30,6 +30,8 @@ class Arguments:
         threads: most threads to drive them in.
         episodes: time instead steps on the episodes of this split, such as train, resets included,
             beside the plain step.
+        agents: time instead decisions of the scripted agent, processor time, on episodes of
+            val_unseen or of --episodes.
         growth: time instead how a step grows with the building, the beams and the robots.
         start: measure instead the processor time of processes that import, ground, or make an
             environment.
@@ -45,6 +47,7 @@ class Arguments:
     robots: int = 64
     threads: int = min(2, os.cpu_count() or 1)
     episodes: str | None = None
+    agents: bool = False
     growth: bool = False
     start: bool = False
     cold: bool = False
@@ -73,6 +76,11 @@ class Arguments:
     def _measured(self) -> list[Timing]:
         if self.start:
             return starting(self.runs, self.cold)
+        if self.agents:
+            from semnav_agents.bench import agent_timings  # the environment alone needs no agent
+
+            split = self.episodes or "val_unseen"
+            return agent_timings(self.robot, split, self.robots, self.runs, self.steps)
         plan = load_floor_plan(self.map)
         kind: dict[str, Any] = {"robot": self.robot, "observation": self.observation}
         if self.growth:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass
@@ -26,6 +27,7 @@ from semnav_agents.evaluation import (
     summarise,
 )
 from semnav_agents.evaluation.provenance import provenance
+from semnav_agents.evaluation.runner import SHARE
 from semnav_agents.learned import agent_label
 from semnav_env.judge.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.rendering.backend import load_pygame
@@ -56,7 +58,8 @@ class Arguments:
             not given.
         first_seed: number of the first seed; 0 if not given.
         episodes: number of episodes of a split, evenly spaced; all if not given.
-        workers: number of processes.
+        workers: number of processes; if not given, one for each core, but no more than have 32
+            episodes to drive.
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
         films: folder for a film (.gif) of each failure, which is driven a second time for it.
@@ -72,7 +75,7 @@ class Arguments:
     seeds: int | None = None
     first_seed: int | None = None
     episodes: int | None = None
-    workers: int = 1
+    workers: int | None = None
     recheck: bool = False
     pictures: Path | None = None
     films: Path | None = None
@@ -84,7 +87,7 @@ class Arguments:
         """Run, and print success and contacts per command."""
         count = USUAL_SEEDS if self.seeds is None else self.seeds
         first = self.first_seed or 0
-        if count < 1 or self.workers < 1:
+        if count < 1 or (self.workers is not None and self.workers < 1):
             raise ValueError("seeds and workers must be at least 1")
         if first < 0:
             raise ValueError(f"first_seed is {first}; it must be 0 or more")
@@ -101,7 +104,8 @@ class Arguments:
         seeds = range(first, first + count)
         total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
         extras = Extras(self.recheck, self.pictures, self.films)
-        how = self.workers, extras, self.dynamics
+        workers = self.workers or min(os.cpu_count() or 1, -(-total // SHARE))
+        how = workers, extras, self.dynamics
         who = self._who()
         results = self._drive(run_suite(trials, self.agent, self.robot, seeds, *how), total, who)
         groups = list(dict.fromkeys(trial.group for trial in trials))

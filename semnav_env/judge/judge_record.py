@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from semnav_env.judge.exact_hypot import exact_hypot
 from semnav_env.mind.grounding.clause_progress import CLAUSE_DONE, TRAIL_DUE, note_pose
 from semnav_env.mind.grounding.crossing import first_crossed
 from semnav_env.world.grid.costs import cost_at
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.exact_hypot import exact_hypot
 from semnav_features.kernels.structures import Structure, numba_type
 
 DOOR_CROSSED, ASTRAY, TOO_STILL, SEVERAL_ANSWERS = 8, 16, 32, 64

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any, Protocol
 
 import numpy as np
+from gymnasium import Space
 from gymnasium.vector.utils import concatenate, create_empty_array
 
 from semnav_env.env import SemNavEnv
@@ -29,10 +30,12 @@ class TeamObservations(Protocol):
 
 
 class EntryRows:
-    """The entries of a mode: all robots' rows are written by compiled calls."""
+    """The entries of a mode, written by compiled calls, and extra entries, robot by robot."""
 
-    def __init__(self, envs: Sequence[SemNavEnv], kind: EntryObservation) -> None:
-        self._kind = kind
+    def __init__(self, envs: Sequence[SemNavEnv], kinds: Sequence[EntryObservation]) -> None:
+        self._envs, self._kinds, self._kind = envs, kinds, kinds[0]
+        spaces: Any = envs[0].observation_space
+        self._extra = {each.name: spaces[each.name] for each in kinds[0].extra}
         self._tokens = np.stack([env.tokens.ravel() for env in envs]).astype(np.int16)
 
     def renew(self, index: int, env: SemNavEnv) -> None:
@@ -50,7 +53,18 @@ class EntryRows:
         entries: dict[str, Any] = {
             name: rows[:, place] for name, place in self._kind.places.items()
         }
-        return entries | {"command": self._tokens.copy()}
+        entries["command"] = self._tokens.copy()
+        return entries | self._observe_extra() if self._extra else entries
+
+    def _observe_extra(self) -> dict[str, Any]:
+        each = []
+        for k, (env, kind) in enumerate(zip(self._envs, self._kinds, strict=True)):
+            with naming_robot(k):
+                each.append(kind.observe_extra(env.moment))
+        return {
+            name: _stacked(space, [entries[name] for entries in each])
+            for name, space in self._extra.items()
+        }
 
 
 class EachObservation:
@@ -71,17 +85,24 @@ class EachObservation:
         for k, env in enumerate(self._envs):
             with naming_robot(k):
                 values.append(env.observe())
-        fresh: Any = create_empty_array(self._space, len(values), fn=np.zeros)
-        return concatenate(self._space, values, fresh)
+        return _stacked(self._space, values)
+
+
+def _stacked(space: Space[Any], values: Sequence[Any]) -> Any:
+    """One value for each robot, as Gymnasium stacks them."""
+    fresh: Any = create_empty_array(space, len(values), fn=np.zeros)
+    return concatenate(space, values, fresh)
 
 
 def team_observations(envs: Sequence[SemNavEnv]) -> TeamObservations:
     """Choose the fast implementation where possible, for environments that have been reset."""
-    kinds = [env.observation_type for env in envs]
-    first = kinds[0]
-    if type(first) is EntryObservation and all(
-        type(kind) is EntryObservation and kind.mode == first.mode and not kind.extra
-        for kind in kinds
+    kinds = [env.observation_type for env in envs if type(env.observation_type) is EntryObservation]
+    if len(kinds) == len(envs) and all(
+        (kind.mode, _names(kind)) == (kinds[0].mode, _names(kinds[0])) for kind in kinds
     ):
-        return EntryRows(envs, first)
+        return EntryRows(envs, kinds)
     return EachObservation(envs)
+
+
+def _names(kind: EntryObservation) -> list[str]:
+    return [entry.name for entry in kind.extra]

@@ -97,7 +97,8 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self.read_settings()
         self._over = np.zeros(num_envs, dtype=bool)
         self._verdicts = np.full(num_envs, None, dtype=object)
-        self._unbegun = np.zeros(num_envs, dtype=bool)
+        self._unbegun = np.ones(num_envs, dtype=bool)
+        self._resting = np.zeros(num_envs, dtype=bool)
         self._observations: TeamObservations
 
     @for_one_thread
@@ -132,9 +133,46 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self._unbegun |= mask
         for k in _indices(mask):
             infos = self._begin(infos, k, seeds[k], joined(k, common, own[k]))
+        return self.observe(), infos
+
+    def begin(
+        self, index: int, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> dict[str, Any]:
+        """Begin an episode of one robot, as its environment's `reset`; returns its info alone.
+
+        For who drives many episodes one after the other, with `autoreset_mode="Disabled"`: begin an
+        episode of each robot, `observe`, `step`; begin the next one where one is over, or `rest`.
+
+        Raises:
+            ValueError: as `SemNavEnv.reset`.
+            gymnasium.error.ClosedEnvironmentError: after `close`.
+        """
+        self._check_open()
+        self._unbegun[index] = True
+        env = self.envs[index]
+        info = env.begin(seed, options)
+        self._over[index] = self._unbegun[index] = self._resting[index] = False
+        self._verdicts[index] = env.judge.verdicts
+        self._actions.renew(index, env)
+        if self._team is not None:
+            self._team.renew(index)
+            self._observations.renew(index, env)
+        return info
+
+    def rest(self, index: int) -> None:
+        """Let a robot whose episode is over stand still until it begins another one."""
+        self._resting[index] = True
+
+    def observe(self) -> Any:
+        """New observations of all robots.
+
+        Raises:
+            RuntimeError: a robot has never begun an episode.
+        """
         if self._team is None:
+            self._check_begun()
             self._gather()
-        return self._observations.observe(self._gathered), infos
+        return self._observations.observe(self._gathered)
 
     @for_one_thread
     def step(self, actions: Arrays) -> tuple[Any, Arrays, Arrays, Arrays, dict[str, Any]]:
@@ -148,20 +186,18 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         self._check_open()
         if self._team is None:
             raise RuntimeError("call reset() before step()")
-        if np.count_nonzero(self._unbegun):
-            waiting = np.flatnonzero(self._unbegun)
-            raise RuntimeError(
-                f"reset robots {waiting} first: their command or options were refused"
-            )
+        self._check_begun()
         driven = ~self._over
-        if self.autoreset_mode is AutoresetMode.DISABLED and not driven.all():
-            raise RuntimeError(f"robots {np.flatnonzero(self._over)} must be reset first")
+        is_autoreset = self.autoreset_mode is not AutoresetMode.DISABLED
+        if not is_autoreset and np.count_nonzero(self._over & ~self._resting):
+            waiting = np.flatnonzero(self._over & ~self._resting)
+            raise RuntimeError(f"robots {waiting} must be reset first")
         held = self._hold(actions, driven)
         known = info_of(self._team.period, self._verdicts)
         infos = step_infos(known, held.terms, driven)
         for k, end in held.ends.items():
             infos = self._add_info(infos, end, k)
-        begin, self._over = self._over, held.over
+        begin, self._over = self._over & is_autoreset, self._over | held.over
         if self.autoreset_mode is AutoresetMode.SAME_STEP:
             begin, self._over = held.over, np.zeros_like(held.over)
             infos = self._final(infos, held.over)
@@ -255,15 +291,8 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         options: dict[str, Any] | None = None,
     ) -> Infos:
         """Reset one robot; returns the infos with its own."""
-        env = self.envs[index]
         with naming_robot(index):
-            info = env.begin(seed, options)
-        self._over[index] = self._unbegun[index] = False
-        self._verdicts[index] = env.judge.verdicts
-        self._actions.renew(index, env)
-        if self._team is not None:
-            self._team.renew(index)
-            self._observations.renew(index, env)
+            info = self.begin(index, seed, options)
         if "pose" not in infos:
             infos = infos | {"pose": np.zeros((self.num_envs, 3))}
         return self._add_info(infos, info, index)
@@ -281,6 +310,13 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         """Update the pictures, and the windows that show them."""
         for k in _indices(driven):
             self.envs[k].renderer.note(self.envs[k], self.envs[k].world.pose)
+
+    def _check_begun(self) -> None:
+        if np.count_nonzero(self._unbegun):
+            waiting = np.flatnonzero(self._unbegun)
+            raise RuntimeError(
+                f"reset robots {waiting} first: their command or options were refused"
+            )
 
     def _check_open(self) -> None:
         if self.closed:

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from semnav_agents.evaluation import SUITES, Trial, run_suite
-from semnav_agents.evaluation.runner import run_trial
+from semnav_agents.evaluation.drive import drive
+from semnav_agents.evaluation.runner import EPISODE_SECONDS, NO_EXTRAS, SuiteJob
 from semnav_agents.registry import make_agent
 from semnav_agents.scripted import ScriptedAgent
 from semnav_env.env import SemNavEnv
+from semnav_env.judge.episodes import evenly, load_episodes
 from semnav_env.robots import ROBOTS
 from semnav_env.world.dynamics import Dynamics
 from semnav_env.world.maps.placement import placement_error
@@ -102,12 +104,22 @@ def test_results_do_not_depend_on_the_number_of_workers() -> None:
     assert alone == shared
 
 
+def test_episodes_driven_together_end_as_driven_alone() -> None:
+    jobs = [SuiteJob(each, each.number) for each in evenly(load_episodes("test_real"), 3)]
+    together = list(run_suite([job.trial for job in jobs], "scripted", "wheelchair"))
+    agent = make_agent("scripted")
+    env = SemNavEnv(observation=agent.observation, max_seconds=EPISODE_SECONDS)
+    alone = [drive(env, agent, job.seed, job.options(env)) for job in jobs]
+    pairs = zip(jobs, alone, strict=True)
+    assert together == [job.result(driven, NO_EXTRAS) for job, driven in pairs]
+
+
 def test_an_agent_can_be_used_for_one_episode_after_another() -> None:
     agent = make_agent("scripted")
     env = SemNavEnv(observation=agent.observation)
-    first = run_trial(env, agent, HEIDELBERG[0], seed=0)
-    run_trial(env, agent, HEIDELBERG[1], seed=1)
-    assert run_trial(env, agent, HEIDELBERG[0], seed=0) == first
+    jobs = [SuiteJob(HEIDELBERG[0], 0), SuiteJob(HEIDELBERG[1], 1), SuiteJob(HEIDELBERG[0], 0)]
+    first, _, again = (drive(env, agent, job.seed, job.options(env)).metrics for job in jobs)
+    assert again == first
 
 
 def test_an_episode_begins_where_no_added_box_stands() -> None:
@@ -115,7 +127,7 @@ def test_an_episode_begins_where_no_added_box_stands() -> None:
     env = SemNavEnv(observation="truth", dynamics=dynamics, max_seconds=0.5)
     env.reset(seed=8, options={"floor_plan": trial.floor_plan})
     assert placement_error(env.floor_plan, env.robot, trial.pose)  # where it was not asked for
-    run_trial(env, make_agent("oracle"), trial, seed=8)
+    env.reset(seed=8, options=SuiteJob(trial, 8).options(env))
     assert placement_error(env.floor_plan, env.robot, trial.pose) is None
 
 

@@ -82,7 +82,7 @@ def test_a_listener_is_drawn_with_the_goal_that_it_found_itself() -> None:
 def test_an_episode_that_names_itself_is_named_once() -> None:
     stale = replace(load_episodes("test_real")[7], plan_hash="0" * 16)
     with pytest.raises(StaleEpisodeError, match="test_real-00007") as caught:
-        runner.run_frozen(SemNavEnv(), Statue(), stale)
+        list(runner.run_suite([stale], Statue, "wheelchair"))
     assert not hasattr(caught.value, "__notes__")
 
 

@@ -10,8 +10,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from semnav_agents.planning.collision import obstacle_field
 from semnav_agents.planning.free import points_around
-from semnav_agents.planning.heuristic import COARSE_CELL, seconds_to
+from semnav_agents.planning.heuristic import (
+    COARSE_CELL,
+    coarse_cell,
+    least_seconds,
+    seconds_at,
+    seconds_to,
+)
 from semnav_agents.planning.motion import MotionCosts, crowding_at
 from semnav_agents.planning.planner import PlannerSettings, _costs
 from semnav_env.robots import WHEELCHAIR
@@ -61,6 +68,16 @@ def test_a_source_at_no_finite_time_is_none() -> None:
     room = np.ones((4, 4))
     time = seconds_to(np.array([(1, 1), (2, 2)]), np.array([math.inf, math.nan]), room, COSTS)
     assert np.isinf(time).all()
+
+
+@given(st.integers(0, 2**31), st.floats(0.0, 0.5))
+def test_no_coarse_way_undercuts_the_least_time(seed: int, blocked: float) -> None:
+    rng = np.random.default_rng(seed)
+    field = obstacle_field(np.empty((0, 2)), (0.0, 0.0), 1.5)
+    room = np.where(rng.random((30, 30)) < blocked, -1.0, rng.random((30, 30)))
+    start, target = (tuple(rng.uniform(-1.4, 1.4, 2).tolist()) for _ in range(2))
+    time = seconds_to(np.array([coarse_cell(field, *target)]), np.zeros(1), room, COSTS)
+    assert seconds_at(field, time, *start) >= least_seconds(field, target, start, COSTS) - 1e-9
 
 
 @given(st.floats(-9, 9), st.floats(-9, 9), st.floats(-4, 4), st.integers(0, 2**31))

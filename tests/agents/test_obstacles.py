@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 import pytest
 import shapely
@@ -7,7 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from semnav_agents.planning.obstacles import ObstacleMemory, points_of_segments
+from semnav_agents.planning.free import points_around
+from semnav_agents.planning.obstacles import (
+    MemorySettings,
+    ObstacleMemory,
+    memory_arrays,
+    points_of_segments,
+)
 from semnav_features.frames import compose
 from tests.support.raycaster import polygon, scan_of
 
@@ -78,6 +86,34 @@ def test_what_is_behind_is_kept_until_the_robot_has_driven_far():
     for step in range(60):
         points = see(memory, ROOM, pose=(0.5 + 0.2 * (step % 2), 0.0, 0.0))
     assert not (distance_to(behind, points) < 0.05).any()
+
+
+@pytest.mark.parametrize("reach", [0.4, 1.65, 2.5])
+@pytest.mark.parametrize("pose", [(0.0, 0.0, 0.0), (1.2, -0.7, 2.0), (-2.9, 1.9, -1.0)])
+def test_the_points_near_a_pose_are_those_of_all_points(pose, reach):
+    memory = ObstacleMemory()
+    for step in range(6):
+        see(memory, ROOM, pose=(0.1 * step, 0.0, 0.1 * step), sigma=0.03, seed=step)
+    expected = points_around(pose, memory.points(), reach)
+    np.testing.assert_array_equal(memory.near(pose, reach), expected)
+    assert len(expected) < len(memory.points())
+
+
+def test_memories_that_share_a_table_remember_as_alone():
+    settings = MemorySettings()
+    state, centres, table = memory_arrays(2, settings)
+    sharing = [
+        ObstacleMemory(settings, (state[k : k + 1], centres[k : k + 1], table)) for k in range(2)
+    ]
+    alone = [ObstacleMemory(), ObstacleMemory()]
+    for step, k in product(range(4), range(2)):
+        pose = (0.2 * step * (1 - 2 * k), 0.1 * k, 0.0)
+        found, expected = (
+            see(memories[k], ROOM, pose=pose, sigma=0.02, seed=step)
+            for memories in (sharing, alone)
+        )
+        np.testing.assert_array_equal(found, expected)
+    assert (table == -1).all()
 
 
 def test_forgetting_everything_leaves_nothing():

@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.past_views import (
@@ -17,6 +19,7 @@ from semnav_features.kernels.past_views import (
     VIEW_SPACING,
     VIEWS,
     look_back,
+    may_be_free,
 )
 from semnav_features.memory import SceneMemory
 from tests.support.remembering import ANGLES, Ends, beams_that_end_at, see
@@ -47,6 +50,20 @@ def test_a_view_tells_what_lies_before_at_and_behind_its_end(
     memory = SceneMemory()
     see(memory, ranges=beams_in_a_circle(radius))
     assert told(memory, 2.0 * math.cos(direction), 2.0 * math.sin(direction)) == expected
+
+
+@given(st.integers(0, 2**31))
+def test_the_quick_test_misses_no_free_place(seed: int) -> None:
+    rng, memory = np.random.default_rng(seed), SceneMemory()
+    for pose in rng.uniform(-1.0, 1.0, (3, 3)).tolist():
+        see(memory, ranges=rng.choice([0.0, 0.7, 2.0, 5.0, np.inf], 360), pose=tuple(pose))
+    _, _, state, views = memory.arrays
+    count = int(state["views"][0])
+    places = rng.uniform(-6.0, 6.0, (200, 2)).tolist()
+    free = [place for place in places if told(memory, *place) == FREE]
+    assert all(may_be_free(*place, count, views[0]) for place in free)
+    passed = sum(may_be_free(*place, count, views[0]) for place in places)
+    assert passed < len(places)
 
 
 def test_a_view_tells_nothing_where_no_beam_went() -> None:

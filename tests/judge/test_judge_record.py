@@ -12,13 +12,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_env.judge import Judge, Verdict, plan_mission
-from semnav_env.judge.exact_hypot import exact_hypot
 from semnav_env.judge.judge_record import ASTRAY, DOOR_CROSSED, TOO_STILL, judge_motion
 from semnav_env.language import parse
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.geodesic import Geodesic
 from semnav_env.world.simulator.sensed import Motion
 from semnav_features.frames import Pose
+from semnav_features.kernels.exact_hypot import exact_hypot
 
 PLAN = load_floor_plan("office_cross")
 MISSION = plan_mission(

@@ -28,6 +28,16 @@ def test_training_on_a_split_is_timed_beside_plain_steps(capsys):
     assert names[1:] == [n for p in plain for n in (p, f"{p}, on test_real with resets")]
 
 
+def test_decisions_are_timed_for_one_robot_and_for_many(capsys):
+    code, out, _ = run(capsys, "bench", *FEW, "--agents", "--episodes", "test_real", "--json")
+    rows = json.loads(out)
+    assert code == 0
+    assert [row["name"].split(", ")[-1] for row in rows[1:]] == [
+        each for each in ("one robot", "one of 2 robots") for _ in range(2)
+    ]
+    assert all(row["microseconds"] > 0.0 for row in rows)
+
+
 def test_a_split_that_is_not_there_is_no_benchmark(capsys):
     code, _, err = run(capsys, "bench", *FEW, "--episodes", "tran")
     assert code == 2

@@ -6,6 +6,7 @@ import json
 import math
 import re
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from semnav_agents.evaluation import misreading, runner
 from semnav_agents.evaluation.intervals import wilson_interval
 from semnav_agents.evaluation.provenance import provenance
 from semnav_agents.evaluation.suites import Trial
-from semnav_env.env import SemNavEnv
+from semnav_agents.team import AgentsOneByOne
 from semnav_env.judge.episodes import (
     Expected,
     find_episode,
@@ -28,6 +29,12 @@ from semnav_env.world.maps import load_floor_plan
 from semnav_scripts.main import main
 from tests.support.evaluated import Statue, result
 
+
+def statues(name: str, robots: int) -> AgentsOneByOne:
+    """A team that stands still, in place of any."""
+    return AgentsOneByOne([Statue() for _ in range(robots)])
+
+
 TWENTIETH = {"command": "take the twentieth door", "language": "en"}
 
 
@@ -35,7 +42,7 @@ def test_evaluate_reports_shares_causes_and_failures(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """An agent that stands still fails every episode, and both judges say so."""
-    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    monkeypatch.setattr(runner, "make_team", statues)
     out, pictures = tmp_path / "out.jsonl", tmp_path / "pictures"
     words = ["heidelberg", "--seeds", "1", "--recheck", "--pictures", str(pictures)]
     assert main(["evaluate", *words, "--out", str(out)]) == 0
@@ -88,7 +95,7 @@ def test_a_split_is_evaluated_by_number_of_clauses(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Failures are named by their episodes."""
-    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    monkeypatch.setattr(runner, "make_team", statues)
     out = tmp_path / "out.jsonl"
     words = ["test_real", "--episodes", "2", "--pictures", str(tmp_path), "--out", str(out)]
     assert main(["evaluate", *words, "--recheck"]) == 0
@@ -123,7 +130,7 @@ def test_the_output_says_who_drove_where_and_how_sure_it_is(
 def test_a_failure_is_filmed_and_its_picture_shows_what_was_believed(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    monkeypatch.setattr(runner, "make_team", statues)
     shown: list[FinalBelief] = []
     monkeypatch.setattr(
         "semnav_env.judge.metrics.picture.draw_belief", lambda _, it: shown.append(it)
@@ -187,16 +194,14 @@ def test_a_demo_has_a_command_or_an_episode(
 def test_an_interrupted_evaluation_keeps_driven_episodes(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
-    drive, left = runner.drive, [None, None]
+    monkeypatch.setattr(runner, "make_team", statues)
+    together = runner.drive_together
 
     def impatient(*arguments: Any) -> Any:
-        if not left:
-            raise KeyboardInterrupt
-        left.pop()
-        return drive(*arguments)
+        yield from islice(together(*arguments), 2)
+        raise KeyboardInterrupt
 
-    monkeypatch.setattr(runner, "drive", impatient)
+    monkeypatch.setattr(runner, "drive_together", impatient)
     out = tmp_path / "out.jsonl"
     assert main(["evaluate", "test_real", "--episodes", "4", "--out", str(out)]) == 130
     rows = [json.loads(line) for line in out.read_text().splitlines()]
@@ -207,15 +212,14 @@ def test_standing_still_is_no_answer_unless_the_robot_says_why(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """On the truth the robot knows at once that a one-clause command is impossible, and says so."""
-    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    monkeypatch.setattr(runner, "make_team", statues)
     file = tmp_path / "short.jsonl"
     write_episodes([e for e in load_episodes("test_infeasible") if e.clauses == 1][:1], file)
     assert main(["evaluate", str(file), "--json"]) == 0
     *_, everything = json.loads(capsys.readouterr().out)
     assert (everything["success"], everything["failures"]) == (1.0, [])
     episode = replace(load_episodes("test_real")[0], expected=Expected.INFEASIBLE)
-    env = SemNavEnv(observation="truth")
-    result = runner.run_frozen(env, Statue(), episode)
+    [result] = runner.run_suite([episode], Statue, "wheelchair")
     assert not result.success
     assert "did not say that it is impossible" in result.cause
 
@@ -224,7 +228,7 @@ def test_an_infeasible_command_has_no_path_to_weigh_success_by(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """SPL and SDTW are left blank, and the oracle's success is no less than success."""
-    monkeypatch.setattr(runner, "make_agent", lambda name: Statue())
+    monkeypatch.setattr(runner, "make_team", statues)
     file, out = tmp_path / "short.jsonl", tmp_path / "out.jsonl"
     write_episodes([e for e in load_episodes("test_infeasible") if e.clauses == 1][:1], file)
     assert main(["evaluate", str(file), "--json", "--out", str(out)]) == 0

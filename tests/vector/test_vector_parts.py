@@ -11,9 +11,10 @@ import pytest
 from semnav_agents.learning.sb3_vec_env import as_sb3_vec_env
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.tasks import EpisodeRequest, RewardWeights
-from semnav_env.mind.observations import EntryObservation
+from semnav_env.mind.observations import EntryObservation, PaceEntry
 from semnav_env.rescue import PersonSearch
 from semnav_env.vector import SemNavVectorEnv
+from semnav_env.vector.observations import EntryRows
 from semnav_features.lidar_spec import TIM561
 
 COARSE = replace(TIM561, name="coarse", beams=271, angle_increment=3.0 * TIM561.angle_increment)
@@ -140,3 +141,48 @@ def test_a_mind_that_was_replaced_is_not_kept() -> None:
     envs.step(np.zeros((2, 2)))
     gc.collect()
     assert [each() for each in before] == [None, None]
+
+
+def test_entries_of_ones_own_leave_the_others_on_the_fast_path():
+    kinds = [EntryObservation("all", [PaceEntry()]) for _ in range(2)]
+    each = [{"observation": kind} for kind in kinds]
+    envs, singles = SemNavVectorEnv(2, each=each, threads=1), [SemNavEnv(**own) for own in each]
+    told = {"command": "drive slowly, then go to the end of the hallway"}
+    rows = envs.reset(seed=0, options=told)[0]
+    assert isinstance(envs._observations, EntryRows)
+    alone = [env.reset(seed=k, options=told)[0] for k, env in enumerate(singles)]
+    for _ in range(20):
+        for k, row in enumerate(alone):
+            assert set(row) == set(rows)
+            for name, value in row.items():
+                np.testing.assert_array_equal(rows[name][k], value)
+        rows = envs.step(AHEAD)[0]
+        alone = [env.step(AHEAD[k])[0] for k, env in enumerate(singles)]
+    assert rows["pace"].shape == (2, 1)
+    assert rows["pace"].any()
+
+
+def test_a_robot_that_rests_leaves_the_other_as_it_would_be_alone():
+    envs = SemNavVectorEnv(2, autoreset_mode="Disabled", max_seconds=2.0, threads=1)
+    single = SemNavEnv(max_seconds=9.0)
+    for k in range(2):
+        envs.begin(k, k)
+    envs.envs[0].max_steps = 10_000
+    envs.read_settings()
+    rows, alone = envs.observe(), single.reset(seed=0)[0]
+    over = False
+    for _ in range(60):
+        for name, value in alone.items():
+            np.testing.assert_array_equal(rows[name][0], value)
+        rows, _, terminated, truncated, _ = envs.step(AHEAD)
+        alone = single.step(AHEAD[0])[0]
+        if terminated[1] or truncated[1]:
+            over = True
+            with pytest.raises(RuntimeError, match="must be reset first"):
+                envs.step(AHEAD)
+            envs.rest(1)
+    assert over
+    envs.begin(1, 7)
+    expected = SemNavEnv(max_seconds=2.0).reset(seed=7)[0]
+    for name, value in expected.items():
+        np.testing.assert_array_equal(envs.observe()[name][1], value)

@@ -18,7 +18,7 @@ from semnav_env.judge.metrics.final_belief import FinalBelief
 from semnav_env.judge.recheck import recheck
 from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
-from semnav_features.frames import ORIGIN, compose, relative, to_parent
+from semnav_features.frames import ORIGIN, Pose, compose, relative, to_parent
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,21 +115,37 @@ def drive(
     recorder = Recorder(env.world)
     for step in steps(env, agent, observation, info):
         recorder.note()
-        info = step.info
         if film is not None:
             film.note(step.terminated or step.truncated)
+    return ended(env, recorder, agent.own_goal() if isinstance(agent, GoalHolder) else None)
+
+
+def ended(env: SemNavEnv, recorder: Recorder, own_goal: Pose | None) -> Drive:
+    """The drive of an episode that has just ended.
+
+    Args:
+        env: where it ended.
+        recorder: of the episode.
+        own_goal: to which the agent drove, odometry frame; None if to that of the belief.
+    """
     judge, recording = env.judge, recorder.recording()
     metrics = measure(recording, judge, env.robot)
-    impossible = info["impossible"]
-    cause = cause_of(judge, metrics, impossible)
-    social = env.world.social()
-    believed = _final_belief(env, agent)
-    return Drive(recording, judge, metrics, cause, env.robot, social, impossible or "", believed)
+    impossible = env.belief.impossible
+    return Drive(
+        recording,
+        judge,
+        metrics,
+        cause_of(judge, metrics, impossible),
+        env.robot,
+        env.world.social(),
+        impossible or "",
+        _final_belief(env, own_goal),
+    )
 
 
-def _final_belief(env: SemNavEnv, agent: Agent) -> FinalBelief:
+def _final_belief(env: SemNavEnv, own_goal: Pose | None) -> FinalBelief:
     """The robot's belief, moved so that the believed pose is the true pose."""
     odometry_frame = compose(env.world.pose, relative(env.belief.pose, ORIGIN))
-    own = agent.own_goal() if isinstance(agent, GoalHolder) else env.belief.goal.pose
+    goal = env.belief.goal.pose if own_goal is None else own_goal
     doors = env.tracker.scene().placed(odometry_frame).doors
-    return FinalBelief(tuple(doors), to_parent(odometry_frame, own[:2]))
+    return FinalBelief(tuple(doors), to_parent(odometry_frame, goal[:2]))

@@ -7,21 +7,25 @@ import pickle
 import re
 import zlib
 from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
+from itertools import chain, groupby
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from semnav_agents.base import Agent
 from semnav_agents.evaluation.drive import Drive, drive
 from semnav_agents.evaluation.results import Result, failure_line
 from semnav_agents.evaluation.suites import Trial
-from semnav_agents.registry import AgentSource, make_agent
+from semnav_agents.evaluation.together import drive_together
+from semnav_agents.registry import AgentSource, make_agent, make_team
+from semnav_agents.team import AgentTeam
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import Episode, Expected
 from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
+from semnav_env.vector import SemNavVectorEnv
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.world.maps import FloorPlan
 from semnav_env.world.maps.placement import MAX_DRAWS, has_room, placement_error
@@ -49,6 +53,9 @@ NO_EXTRAS = Extras()
 
 TRIAL_SECONDS, EPISODE_SECONDS = 120.0, 300.0
 """Time limits of a trial and of a frozen episode, whose routes are longer; simulated seconds."""
+
+TOGETHER, SHARE = 16, 32
+"""Largest number of episodes that are driven at once in a process, and that it takes at a time."""
 
 STEPS_PER_FILM_FRAME = 15
 """Steps between the frames of a failure's film, one second: it runs five times as fast as the
@@ -95,96 +102,119 @@ def run_suite(
     """
     setup = SuiteSetup(agent, robot, extras, dynamics)
     jobs = [
-        (trial, seed)
+        SuiteJob(trial, seed)
         for trial in trials
         for seed in ((trial.number,) if isinstance(trial, Episode) else seeds)
     ]
     if workers == 1:
-        runner = SuiteRunner(setup)
-        yield from (runner.run(trial, seed) for trial, seed in jobs)
+        yield from SuiteRunner(setup).run(jobs)
         return
+    shares = [jobs[k : k + SHARE] for k in range(0, len(jobs), SHARE)]
     processes = multiprocessing.get_context("spawn")
     with for_this_process_alone():
-        pool = processes.Pool(workers, _start_worker, (_pickled(setup),))
+        pool = processes.Pool(min(workers, len(shares)), _start_worker, (_pickled(setup),))
     with pool:
-        yield from pool.imap(_work, jobs, chunksize=4)
+        yield from chain.from_iterable(pool.imap(_work, shares))
+
+
+@dataclass(frozen=True)
+class SuiteJob:
+    """A trial with a seed, or a frozen episode, whose seed is its number."""
+
+    trial: Trial | Episode
+    seed: int
+
+    @property
+    def max_seconds(self) -> float:
+        """Time limit, simulated seconds."""
+        return EPISODE_SECONDS if isinstance(self.trial, Episode) else TRIAL_SECONDS
+
+    @property
+    def name(self) -> str:
+        """For the names of files: the command, or the id of the episode."""
+        return self.trial.id if isinstance(self.trial, Episode) else self.trial.command
+
+    def options(self, env: SemNavEnv) -> dict[str, Any]:
+        """The options with which an environment begins it; the seed scatters a trial's start."""
+        if isinstance(self.trial, Episode):
+            return {"episode": self.trial}
+        drawn = env.plan_source.plan(self.trial.floor_plan)  # furniture keeps off the pose
+        pose = scattered(self.trial, drawn, env.robot, np.random.default_rng(self.seed))
+        told = {"command": self.trial.command, "floor_plan": self.trial.floor_plan}
+        return {**told, "pose": pose}
+
+    def named_in_errors(self) -> AbstractContextManager[None]:
+        """Add the id of a frozen episode to errors."""
+        if isinstance(self.trial, Episode):
+            return self.trial.named_in_errors()
+        return nullcontext()
+
+    def result(self, driven: Drive, extras: Extras) -> Result:
+        """The result of its drive."""
+        if not isinstance(self.trial, Episode):
+            return conclude(driven, self.trial.command, self.seed, extras, group=self.trial.group)
+        episode = self.trial
+        if episode.expected is Expected.INFEASIBLE:
+            driven, extras = driven.as_infeasible(), replace(extras, recheck=False)
+        told = episode.command, episode.number, extras
+        return conclude(driven, *told, episode=episode.id, group=episode.group)
 
 
 class SuiteRunner:
-    """Runs trials and frozen episodes one after the other, with one agent on one body."""
+    """Runs trials and frozen episodes, many at once, with one agent on one body."""
 
     def __init__(self, setup: SuiteSetup) -> None:
         self._setup = setup
-        self._agent = make_agent(setup.agent)
-        self._envs: dict[tuple[float, str | None], SemNavEnv] = {}
+        self._crews: dict[tuple[int, float], tuple[SemNavVectorEnv, AgentTeam]] = {}
 
-    def run(self, trial: Trial | Episode, seed: int) -> Result:
-        """The result of a trial with that seed, or of a frozen episode."""
-        limit = EPISODE_SECONDS if isinstance(trial, Episode) else TRIAL_SECONDS
-        extras, env = self._setup.extras, self._env(limit)
-        if isinstance(trial, Episode):
-            result = run_frozen(env, self._agent, trial, extras)
-        else:
-            result = run_trial(env, self._agent, trial, seed, extras)
-        if extras.films is not None and not result.success:
-            self._film(trial, seed, self._env(limit, "rgb_array"), extras.films)
-        return result
+    def run(self, jobs: Sequence[SuiteJob]) -> Iterator[Result]:
+        """The results of jobs in their order."""
+        for max_seconds, some in groupby(jobs, lambda job: job.max_seconds):
+            yield from self._run(list(some), max_seconds)
 
-    def _film(self, trial: Trial | Episode, seed: int, env: SemNavEnv, folder: Path) -> None:
-        """Drive a failure once more, with the same result, and film it."""
-        film = Film(env, STEPS_PER_FILM_FRAME)
-        driven = drive(env, self._agent, seed, reset_options(trial, seed, env), film)
-        name = trial.id if isinstance(trial, Episode) else trial.command
-        film.save(folder / f"{file_stem(driven, name, seed)}.gif")
+    def _run(self, jobs: Sequence[SuiteJob], max_seconds: float) -> Iterator[Result]:
+        """The results of jobs with one time limit, in their order."""
+        extras = self._setup.extras
+        crew = self._crew(min(TOGETHER, len(jobs)), max_seconds)
+        found, done = dict[int, Result](), 0
+        for number, driven in drive_together(*crew, jobs):
+            found[number] = jobs[number].result(driven, extras)
+            if extras.films is not None and not found[number].success:
+                self._film(jobs[number], extras.films)
+            while done in found:
+                yield found.pop(done)
+                done += 1
 
-    def _env(self, max_seconds: float, render_mode: str | None = None) -> SemNavEnv:
-        """The environment with that limit, kept from one episode to the next."""
-        kind = max_seconds, render_mode
-        if kind not in self._envs:
-            setup = self._setup
-            self._envs[kind] = SemNavEnv(
-                setup.robot,
-                observation=self._agent.observation,
-                dynamics=setup.dynamics,
+    def _crew(self, robots: int, max_seconds: float) -> tuple[SemNavVectorEnv, AgentTeam]:
+        """So many robots and their drivers, kept from one share to the next."""
+        crew = self._crews.get((robots, max_seconds))
+        if crew is None:
+            team = make_team(self._setup.agent, robots)
+            envs = SemNavVectorEnv(
+                robots,
+                robot=self._setup.robot,
+                observation=team.observation,
+                dynamics=self._setup.dynamics,
                 max_seconds=max_seconds,
-                render_mode=render_mode,
+                threads=1,
+                autoreset_mode="Disabled",
             )
-        return self._envs[kind]
+            crew = self._crews[robots, max_seconds] = envs, team
+        return crew
 
-
-def reset_options(trial: Trial | Episode, seed: int, env: SemNavEnv) -> dict[str, Any]:
-    """The options with which an environment begins a trial or a frozen episode.
-
-    Args:
-        trial: what is to be driven.
-        seed: scatters the start of a trial.
-        env: the environment.
-    """
-    if isinstance(trial, Episode):
-        return {"episode": trial}
-    drawn = env.plan_source.plan(trial.floor_plan)  # furniture keeps off the pose
-    pose = scattered(trial, drawn, env.robot, np.random.default_rng(seed))
-    return {"command": trial.command, "floor_plan": trial.floor_plan, "pose": pose}
-
-
-def run_trial(
-    env: SemNavEnv, agent: Agent, trial: Trial, seed: int, extras: Extras = NO_EXTRAS
-) -> Result:
-    """Drive a trial once; the seed scatters its start pose."""
-    driven = drive(env, agent, seed, reset_options(trial, seed, env))
-    return conclude(driven, trial.command, seed, extras, group=trial.group)
-
-
-def run_frozen(
-    env: SemNavEnv, agent: Agent, episode: Episode, extras: Extras = NO_EXTRAS
-) -> Result:
-    """Drive a frozen episode; its number is the seed."""
-    with episode.named_in_errors():
-        driven = drive(env, agent, episode.number, {"episode": episode})
-    if episode.expected is Expected.INFEASIBLE:
-        driven, extras = driven.as_infeasible(), replace(extras, recheck=False)
-    told = episode.command, episode.number, extras
-    return conclude(driven, *told, episode=episode.id, group=episode.group)
+    def _film(self, job: SuiteJob, folder: Path) -> None:
+        """Drive a failure once more, with the same result, and film it."""
+        agent = make_agent(self._setup.agent)
+        env = SemNavEnv(
+            self._setup.robot,
+            observation=agent.observation,
+            dynamics=self._setup.dynamics,
+            max_seconds=job.max_seconds,
+            render_mode="rgb_array",
+        )
+        film = Film(env, STEPS_PER_FILM_FRAME)
+        driven = drive(env, agent, job.seed, job.options(env), film)
+        film.save(folder / f"{file_stem(driven, job.name, job.seed)}.gif")
 
 
 def conclude(
@@ -273,15 +303,15 @@ def _start_worker(pickled: bytes) -> None:
     _Worker.pickled = pickled
 
 
-def _work(job: tuple[Trial | Episode, int]) -> Result:
-    """Run a job; the agent is unpickled here, where an error reaches the caller."""
+def _work(jobs: list[SuiteJob]) -> list[Result]:
+    """Run some jobs; the agent is unpickled here, where an error reaches the caller."""
     if _Worker.runner is None:
         try:
             setup = pickle.loads(_Worker.pickled)
         except (AttributeError, ImportError) as error:
             raise ValueError(f"{_NOT_SHARED}: {error}") from None
         _Worker.runner = SuiteRunner(setup)
-    return _Worker.runner.run(*job)
+    return list(_Worker.runner.run(jobs))
 
 
 _NOT_SHARED = (

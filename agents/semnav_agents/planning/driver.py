@@ -11,6 +11,7 @@ from semnav_agents.planning.doorway import room_behind
 from semnav_agents.planning.follower import PathProgress, Steering, follow
 from semnav_agents.planning.free import points_around
 from semnav_agents.planning.guard import SPEED_SHARES, safe_share
+from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
 from semnav_agents.planning.nudge import best_nudge, path_clearance, path_clearances
 from semnav_agents.planning.path import PlannedPath, joined
 from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
@@ -116,17 +117,17 @@ class Driver:
 
     def drive(
         self,
-        points: FloatArray,
+        points: FloatArray | Obstacles,
         target: DriveTarget,
         pose: Pose,
         velocity: Twist = (0.0, 0.0, 0.0),
-        barriers: FloatArray = NO_POINTS,
+        barriers: FloatArray | Obstacles = NO_POINTS,
         moving: FloatArray = NO_POINTS,
     ) -> Steering:
         """The velocities for this step; `done` once the target is reached.
 
         Args:
-            points: obstacle points, metres, shape (N, 2).
+            points: obstacles, or obstacle points, metres, shape (N, 2).
             target: where to go, in the frame of the points.
             pose: the centre's pose in that frame.
             velocity: of the robot now.
@@ -137,17 +138,20 @@ class Driver:
         self._step += 1
         self._wait -= 1
         self._around -= 1
-        standing, points = points, np.vstack((points, moving)) if self._around > 0 else points
+        standing = obstacles = as_obstacles(points)
+        barriers = as_obstacles(barriers)
+        if self._around > 0:
+            obstacles = JoinedObstacles((standing, as_obstacles(moving)))
         self._braking = self._braking and max(map(abs, velocity)) > 0.05
         if self._braking:
             return STANDSTILL
-        if self._must_plan(points, target, pose, barriers):
+        if self._must_plan(obstacles, target, pose, barriers):
             if self._wait > 0:
                 return STANDSTILL
-            self._plan(points, target, pose, velocity, barriers)
-            if self._around > 0 and not self._keeps_off(barriers):
+            self._plan(obstacles.points(), target, pose, velocity, barriers.points())
+            if self._around > 0 and not self._keeps_off(barriers.points()):
                 self._around = 0
-                self._plan(standing, target, pose, velocity, barriers)
+                self._plan(standing.points(), target, pose, velocity, barriers.points())
         assert self._track is not None
         if self._around <= 0 and self._yields(moving, pose, velocity):
             return STANDSTILL
@@ -158,7 +162,7 @@ class Driver:
         near = points_around(pose, moving, 1.5 * self.robot.length)
         if safe_share(near, steering.twist, velocity, self.robot) == 0.0:
             return STANDSTILL  # it is no noise, so that the robot never insists
-        return self._guarded(points, pose, velocity, steering)
+        return self._guarded(obstacles, pose, velocity, steering)
 
     def _yields(self, moving: FloatArray, pose: Pose, velocity: Twist) -> bool:
         """Whether to wait for what moves on the next stretch of the path, nearer than it is now.
@@ -168,6 +172,9 @@ class Driver:
         """
         distance = YIELD_DISTANCE + YIELD_SECONDS * math.hypot(velocity[0], velocity[1])
         near = points_around(pose, moving, distance + self.robot.length)
+        if not len(near):
+            self._yielded = max(self._yielded - 1, 0)
+            return False
         ahead, size = self._ahead(pose, distance), (self.robot.length, self.robot.width)
         now = path_clearance(near, np.zeros((1, 3)), *size, 0.0, 0.0, -math.inf)
         enough = min(YIELD_CLEARANCE, now - YIELD_APPROACH)
@@ -186,7 +193,7 @@ class Driver:
 
     def _guarded(
         self,
-        points: FloatArray,
+        obstacles: Obstacles,
         pose: Pose,
         velocity: Twist,
         steering: Steering,
@@ -196,7 +203,7 @@ class Driver:
         After `insist_after` refusals in a row it is allowed slowly, because the obstacle may be
         noise.
         """
-        seen = points_around(pose, points, 1.5 * self.robot.length)
+        seen = obstacles.near(pose, 1.5 * self.robot.length)
         share = safe_share(seen, steering.twist, velocity, self.robot)
         if share == 0.0:
             self._refusals += 1
@@ -207,10 +214,10 @@ class Driver:
             self._refusals = 0
         if steering.done and self.path is not None and not self.path.complete:
             return STANDSTILL
-        return steering.slowed(share)
+        return steering if share == 1.0 else steering.slowed(share)
 
     def _must_plan(
-        self, points: FloatArray, target: DriveTarget, pose: Pose, barriers: FloatArray
+        self, obstacles: Obstacles, target: DriveTarget, pose: Pose, barriers: Obstacles
     ) -> bool:
         if self._track is None or self._target is None or self.path is None:
             return True
@@ -222,7 +229,7 @@ class Driver:
             return True
         if self._step % self.check_every:
             return False
-        solid = np.vstack((points, barriers)) if self._heeds_barriers else points
+        solid = JoinedObstacles((obstacles, barriers)) if self._heeds_barriers else obstacles
         return not self._stays_free(solid, pose)
 
     def _plan(
@@ -309,10 +316,10 @@ class Driver:
         assert self._track is not None
         return float(self._track.distance[-1] - self._track.distance[self._progress.sample])
 
-    def _stays_free(self, points: FloatArray, pose: Pose) -> bool:
+    def _stays_free(self, obstacles: Obstacles, pose: Pose) -> bool:
         """Whether the next metres of the path are free, after a small correction if need be."""
         assert self.path is not None
-        seen, margin = points_around(pose, points, LOOKAHEAD), self.path.margin
+        seen, margin = obstacles.near(pose, LOOKAHEAD), self.path.margin
         size = (self.robot.length, self.robot.width)
         left, turn, _ = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
         if left or turn:

@@ -10,6 +10,7 @@ from itertools import chain
 import numpy as np
 
 from semnav_agents.planning.doorway import target_behind
+from semnav_agents.planning.known_obstacles import Obstacles, as_obstacles
 from semnav_agents.planning.planner import DriveTarget
 from semnav_env.approach import DoorSide, Surroundings, plan_approach
 from semnav_env.approach.poses import is_behind
@@ -83,13 +84,13 @@ class ExitViaDoor:
         """Move on to the next pose of the way; after the last one, begin again."""
         self._way = self._way[1:] or (None,)
 
-    def failed(self, points: FloatArray, end: Pose) -> bool:
+    def failed(self, points: FloatArray | Obstacles, end: Pose) -> bool:
         """Give up the target, and choose the next way; returns whether there is one.
 
         A path that ends far from the door still leads nearer to it, and is driven.
 
         Args:
-            points: obstacles, in the frame of the door, shape (n, 2).
+            points: obstacles, or their points, shape (n, 2), in the frame of the door.
             end: where the path to the target ends before it, in that frame.
         """
         far = self._door is None or math.dist(end[:2], self._door.middle) > MAX_OBSTACLE_DISTANCE
@@ -97,7 +98,10 @@ class ExitViaDoor:
             return False
         way = next(self._ways, None)
         if way is None and self._pause == 0:
-            self._ways, self._pause = _ways(self._door, points, self.robot), PAUSE
+            self._ways, self._pause = (
+                _ways(self._door, as_obstacles(points).points(), self.robot),
+                PAUSE,
+            )
             way = next(self._ways)
         elif way is None:
             self._pause -= 1

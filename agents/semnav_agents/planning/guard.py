@@ -10,6 +10,7 @@ from semnav_agents.planning.motion import Move, moved
 from semnav_agents.planning.nudge import path_clearance
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import FloatArray, Twist
+from semnav_features.kernels.compiling import kernel
 
 CONTACT_CLEARANCE = 0.006
 """Clearance below which a steering counts as a collision, metres: small, because a robot
@@ -36,20 +37,38 @@ def safe_share(
         velocity: its velocity now.
         robot: gives footprint, axle and limits.
     """
+    if not len(points):
+        return SPEED_SHARES[0]
+    forward, left, yaw_rate = twist
     seconds = FORESIGHT + math.hypot(velocity[0], velocity[1]) / robot.max_acceleration / 2
-    near = points[np.abs(points).max(axis=1, initial=0.0) < robot.length]
+    axle_twist = Move(forward, left - robot.axle * yaw_rate, yaw_rate)
+    return float(_free_share(points, axle_twist, seconds, robot.length, robot.width))
+
+
+@kernel
+def _free_share(
+    points: FloatArray, axle_twist: Move, seconds: float, length: float, width: float
+) -> float:
+    """See `safe_share`, with the velocity of the axle and the time for a share of 1."""
+    near, n = np.empty_like(points), 0
+    for k in range(len(points)):
+        if abs(points[k, 0]) < length and abs(points[k, 1]) < length:
+            near[n] = points[k]
+            n += 1
     for share in SPEED_SHARES:
-        if not _hits(near, twist, share * seconds, robot):
+        if not _hits(near[:n], axle_twist, share * seconds, length, width):
             return share
     return 0.0
 
 
-def _hits(points: FloatArray, twist: Twist, seconds: float, robot: RobotSpec) -> bool:
+@kernel
+def _hits(
+    points: FloatArray, axle_twist: Move, seconds: float, length: float, width: float
+) -> bool:
     """Whether driving on comes closer to a point than `CONTACT_CLEARANCE` and than now."""
-    forward, left, yaw_rate = twist
-    axle_twist = Move(forward, left - robot.axle * yaw_rate, yaw_rate)
-    poses = np.array([moved(0.0, 0.0, 0.0, axle_twist, seconds * k / 4) for k in range(5)])
-    size = (robot.length, robot.width)
-    now = path_clearance(points, poses[:1], *size, 0.0, 0.0, -math.inf)
-    soon = path_clearance(points, poses[1:], *size, 0.0, 0.0, -math.inf)
+    poses = np.empty((5, 3))
+    for k in range(5):
+        poses[k] = moved(0.0, 0.0, 0.0, axle_twist, seconds * k / 4)
+    now = path_clearance(points, poses[:1], length, width, 0.0, 0.0, -math.inf)
+    soon = path_clearance(points, poses[1:], length, width, 0.0, 0.0, -math.inf)
     return bool(soon < CONTACT_CLEARANCE and soon < now - 0.004)

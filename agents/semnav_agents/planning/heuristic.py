@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from semnav_agents.planning.collision import CELL_DIAGONAL, FIELD_CELL, Footprint, ObstacleField
 from semnav_agents.planning.motion import MotionCosts, crowding_at
 from semnav_env.world.grid.costs import least_costs
-from semnav_features.frames import FloatArray
+from semnav_features.frames import FloatArray, Point
 from semnav_features.kernels.compiling import kernel
 
 COARSE_CELLS = 2
@@ -34,9 +34,10 @@ def room_grid(field: ObstacleField, body: Footprint, margin: float) -> FloatArra
     room = np.empty((n, n))
     for j in range(n):
         for i in range(n):
-            best = field.distance[
-                j * COARSE_CELLS : (j + 1) * COARSE_CELLS, i * COARSE_CELLS : (i + 1) * COARSE_CELLS
-            ].max()
+            best = -1.0  # `max` of a part of an array takes ten times as long
+            for row in range(j * COARSE_CELLS, (j + 1) * COARSE_CELLS):
+                for column in range(i * COARSE_CELLS, (i + 1) * COARSE_CELLS):
+                    best = max(best, float(field.distance[row, column]))
             free = best + CELL_DIAGONAL >= body.half_width + margin
             room[j, i] = max(0.0, best - body.half_width) if free else -1.0
     return room
@@ -89,3 +90,15 @@ def seconds_at(field: ObstacleField, time: FloatArray, x: float, y: float) -> fl
         for column in range(max(0, i - 1), min(n, i + 2)):
             least = min(least, time[row, column])
     return least + COARSE_CELL
+
+
+def least_seconds(field: ObstacleField, a: Point, b: Point, costs: MotionCosts) -> float:
+    """A time that no coarse way between two places undercuts, however free the floor is, seconds.
+
+    It is the octile distance of their cells less a diagonal step, because `seconds_at` may begin at
+    a neighbour of the cell of a place.
+    """
+    (j, i), (n, m) = coarse_cell(field, *a), coarse_cell(field, *b)
+    fewer, more = sorted((abs(j - n), abs(i - m)))
+    way = (more - fewer) * COARSE_CELL + (fewer - 1) * COARSE_DIAGONAL
+    return way / costs.speed

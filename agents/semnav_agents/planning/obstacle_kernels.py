@@ -12,8 +12,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_features.frames import FloatArray, Pose
+from semnav_features.frames import FloatArray, Pose, wrap_angle
 from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.heading import rough_angle
 
 CENTRE = np.dtype(
     [
@@ -23,15 +24,27 @@ CENTRE = np.dtype(
         ("scan", "f8"),
         ("travel", "f8"),
         ("turned", "f8"),
+        ("row", "i4"),
+        ("column", "i4"),
     ]
 )
-"""A centre: position in metres, number of hits, and the `MemoryClock` of the last hit."""
+"""A centre: position in metres, number of hits, the `MemoryClock` of the last hit, and its voxel in
+the table."""
+
+OBSTACLE_STATE = np.dtype(
+    [(name, "f8") for name in ("scan", "travel", "turned", "x", "y", "heading")] + [("count", "i8")]
+)
+"""The `MemoryClock` of the last scan, the lidar's pose then, metres and radians, odometry frame,
+and the number of centres; shape (1,)."""
 
 VOXEL = 0.05
 """Side of a voxel of the table, metres; a voxel holds at most one centre."""
 
 NEIGHBOUR_DISTANCE = 0.09
 """Distance of a neighbour, metres; a centre with far fewer hits than a neighbour is noise."""
+
+NEIGHBOUR_REACH = 3 * VOXEL
+"""Distance beyond which nothing is a neighbour, metres: those up to two voxels away are."""
 
 JOIN_DISTANCE = 0.035
 """Distance below which two centres are joined, metres."""
@@ -55,6 +68,56 @@ class MemoryClock(NamedTuple):
     turned: float
 
 
+class MemoryLimits(NamedTuple):
+    """Those of `MemorySettings` that decide what is remembered."""
+
+    radius: float
+    merge: float
+    window: int
+    through: float
+    max_age: MemoryClock
+
+
+@kernel
+def remember(
+    state: Any,
+    centres: NDArray[Any],
+    table: NDArray[np.int32],
+    pose: Pose,
+    ranges: FloatArray,
+    directions: FloatArray,
+    range_max: float,
+    limits: MemoryLimits,
+) -> None:
+    """Add one scan to a memory.
+
+    Args:
+        state: an entry of dtype `OBSTACLE_STATE`, changed in place.
+        centres: dtype `CENTRE`, changed in place.
+        table: of voxels, shape (TABLE_SIDE, TABLE_SIDE); -1 everywhere, before and after, so that
+            many memories may share one.
+        pose: of the lidar, odometry frame.
+        ranges: metres, shape (n,).
+        directions: unit vectors of the beams, lidar frame, shape (n, 2).
+        range_max: metres.
+        limits: of the memory.
+    """
+    if state.scan > 0.0:
+        state.travel += math.hypot(pose[0] - state.x, pose[1] - state.y)
+        state.turned += abs(wrap_angle(pose[2] - state.heading))
+    state.x, state.y, state.heading = pose
+    state.scan += 1.0
+    now = MemoryClock(state.scan, state.travel, state.turned)
+    state.count = _forget(
+        centres, state.count, table, pose, ranges, directions, range_max, now, limits
+    )
+    state.count = _add_hits(
+        centres, state.count, table, pose, ranges, directions, range_max, now, limits
+    )
+    for k in range(state.count):
+        table[centres[k].row, centres[k].column] = -1
+
+
 @kernel
 def slot(x: float, y: float) -> tuple[int, int]:
     """Place of a point in the wrapped table."""
@@ -62,25 +125,23 @@ def slot(x: float, y: float) -> tuple[int, int]:
 
 
 @kernel
-def forget(
+def _forget(
     centres: NDArray[Any],
     count: int,
+    table: NDArray[np.int32],
     pose: Pose,
     ranges: FloatArray,
     directions: FloatArray,
     range_max: float,
     now: MemoryClock,
-    max_age: MemoryClock,
-    radius: float,
-    through: float,
-) -> tuple[int, NDArray[np.int32]]:
+    limits: MemoryLimits,
+) -> int:
     """Drop centres that are old, far away or seen through; join those that are close together.
 
     Returns:
-        the number of centres left, which are moved to the front, and the table from voxels to
-        them (-1: none).
+        the number of centres left, which are moved to the front and put into the table.
     """
-    table = np.full((TABLE_SIDE, TABLE_SIDE), -1, dtype=np.int32)
+    beams, max_age = _beams_of(pose, directions), limits.max_age
     kept = 0
     for k in range(count):
         centre = centres[k]
@@ -89,9 +150,9 @@ def forget(
             or now.travel - centre.travel > max_age.travel
             or now.turned - centre.turned > max_age.turned
         )
-        if old or math.hypot(centre.x - pose[0], centre.y - pose[1]) > radius + 0.2:
+        if old or math.hypot(centre.x - pose[0], centre.y - pose[1]) > limits.radius + 0.2:
             continue
-        if seen_through(pose, centre.x, centre.y, ranges, directions, range_max, through):
+        if _seen_through(beams, centre.x, centre.y, ranges, range_max, limits.through):
             centre.hits = 0.5 * min(centre.hits, 40.0)
             if centre.hits < 1.0:
                 continue
@@ -104,8 +165,9 @@ def forget(
         else:
             table[j, i] = kept
             centres[kept] = centre
+            centres[kept].row, centres[kept].column = j, i
             kept += 1
-    return kept, table
+    return kept
 
 
 @kernel
@@ -120,36 +182,62 @@ def join(into: Any, other: Any) -> None:
     into.turned = max(into.turned, other.turned)
 
 
+class LidarBeams(NamedTuple):
+    """Where a lidar is and how its beams lie.
+
+    Attributes:
+        x: of the lidar, metres, in the frame of the centres.
+        y: the same.
+        cosine: of its heading.
+        sine: the same.
+        first_x: unit vector of the first beam, lidar frame.
+        first_y: the same.
+        increment: angle between two beams, radians.
+    """
+
+    x: float
+    y: float
+    cosine: float
+    sine: float
+    first_x: float
+    first_y: float
+    increment: float
+
+
 @kernel
-def seen_through(
-    pose: Pose,
-    x: float,
-    y: float,
-    ranges: FloatArray,
-    directions: FloatArray,
-    range_max: float,
-    through: float,
-) -> bool:
-    """Whether the three beams nearest to a point all reach farther than `through` behind it."""
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    dx, dy = x - pose[0], y - pose[1]
-    px, py = c * dx + s * dy, c * dy - s * dx
+def _beams_of(pose: Pose, directions: FloatArray) -> LidarBeams:
+    """The beams of a lidar at a pose, from their unit vectors in the lidar frame, shape (n, 2)."""
     ux, uy = directions[0]
     increment = math.atan2(
         ux * directions[1, 1] - uy * directions[1, 0], ux * directions[1, 0] + uy * directions[1, 1]
     )
-    angle = math.atan2(ux * py - uy * px, ux * px + uy * py) % (2.0 * math.pi)
-    beam = round(angle / increment)
+    return LidarBeams(pose[0], pose[1], math.cos(pose[2]), math.sin(pose[2]), ux, uy, increment)
+
+
+@kernel
+def _seen_through(
+    beams: LidarBeams, x: float, y: float, ranges: FloatArray, range_max: float, through: float
+) -> bool:
+    """Whether the three beams nearest to a point all reach farther than `through` behind it."""
+    dx, dy = x - beams.x, y - beams.y
+    px, py = beams.cosine * dx + beams.sine * dy, beams.cosine * dy - beams.sine * dx
+    ux, uy = beams.first_x, beams.first_y
+    distance = math.hypot(px, py) + through
+    along, across = ux * px + uy * py, ux * py - uy * px
+    # the roughly nearest beam is one of the three: where it ends before, no exact angle is needed
+    near = round(rough_angle(along, across) % (2.0 * math.pi) / beams.increment)
+    if 0 <= near < len(ranges) and ranges[near] <= distance:
+        return False
+    beam = round(math.atan2(across, along) % (2.0 * math.pi) / beams.increment)
     if beam < 1 or beam > len(ranges) - 2:
         return False
-    distance = math.hypot(px, py) + through
     least = min(ranges[beam - 1], ranges[beam], ranges[beam + 1])
     most = max(ranges[beam - 1], ranges[beam], ranges[beam + 1])
     return bool(least > distance and most < range_max)
 
 
 @kernel
-def add_hits(
+def _add_hits(
     centres: NDArray[Any],
     count: int,
     table: NDArray[np.int32],
@@ -158,19 +246,17 @@ def add_hits(
     directions: FloatArray,
     range_max: float,
     now: MemoryClock,
-    radius: float,
-    merge: float,
-    window: int,
+    limits: MemoryLimits,
 ) -> int:
     """Refine the nearest centre with each hit, or make a new one; returns the number of centres."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
-    reach = min(radius, range_max)
+    reach = min(limits.radius, range_max)
     for k in range(len(ranges)):
         if not 0.05 < ranges[k] < reach:
             continue
         px, py = ranges[k] * directions[k, 0], ranges[k] * directions[k, 1]
         x, y = pose[0] + c * px - s * py, pose[1] + s * px + c * py
-        near = nearest(centres, table, x, y, merge)
+        near = nearest(centres, table, x, y, limits.merge)
         if near < 0:
             j, i = slot(x, y)
             if count >= len(centres) or table[j, i] >= 0:
@@ -178,10 +264,11 @@ def add_hits(
             near = count
             table[j, i] = near
             centres[near].x, centres[near].y, centres[near].hits = x, y, 0.0
+            centres[near].row, centres[near].column = j, i
             count += 1
         centre = centres[near]
         centre.hits += 1.0
-        weight = 1.0 / min(centre.hits, window)
+        weight = 1.0 / min(centre.hits, limits.window)
         centre.x += weight * (x - centre.x)
         centre.y += weight * (y - centre.y)
         centre.scan, centre.travel, centre.turned = now.scan, now.travel, now.turned
@@ -206,31 +293,75 @@ def nearest(
 
 
 @kernel
-def select(centres: NDArray[Any], sure: int, share: float, blunt: float) -> FloatArray:
+def select(
+    centres: NDArray[Any],
+    table: NDArray[np.int32],
+    x: float,
+    y: float,
+    reach: float,
+    sure: int,
+    share: float,
+    blunt: float,
+) -> FloatArray:
     """Positions of the centres that were hit often enough, by themselves and beside neighbours.
 
     The last centre of a row averages over the end of the wall it stands for. A centre with
     neighbours on one side only therefore gets a second point, `blunt` metres farther out.
+
+    Args:
+        centres: all of them.
+        table: of voxels, -1 everywhere, before and after.
+        x: of the middle of the square in which positions are wanted, metres.
+        y: the same.
+        reach: half the side of that square, metres; some positions lie beside it.
+        sure: least number of hits.
+        share: least number of hits, as a share of a neighbour's.
+        blunt: length by which the ends of walls are shortened, metres.
     """
-    table = np.full((TABLE_SIDE, TABLE_SIDE), -1, dtype=np.int32)
+    chosen, n = np.empty(len(centres), np.int64), 0
+    wide = reach + blunt + NEIGHBOUR_REACH
     for k in range(len(centres)):
+        if abs(centres[k].x - x) < wide and abs(centres[k].y - y) < wide:
+            chosen[n] = k
+            n += 1
+            j, i = slot(centres[k].x, centres[k].y)
+            best: int = table[j, i]
+            if best < 0 or centres[best].hits < centres[k].hits:
+                table[j, i] = k
+    points = _sure_points(centres, chosen[:n], table, x, y, reach + blunt, sure, share, blunt)
+    for k in chosen[:n]:
         j, i = slot(centres[k].x, centres[k].y)
-        best: int = table[j, i]
-        if best < 0 or centres[best].hits < centres[k].hits:
-            table[j, i] = k
-    points = np.empty((2 * len(centres), 2))
-    n = 0
-    for k in range(len(centres)):
+        table[j, i] = -1
+    return points
+
+
+@kernel
+def _sure_points(
+    centres: NDArray[Any],
+    chosen: NDArray[np.int64],
+    table: NDArray[np.int32],
+    x: float,
+    y: float,
+    reach: float,
+    sure: int,
+    share: float,
+    blunt: float,
+) -> FloatArray:
+    """See `select`; of the chosen centres those within reach."""
+    points, n = np.empty((2 * len(chosen), 2)), 0
+    for k in chosen:
         centre = centres[k]
-        most, weight, x, y = neighbourhood(centres, table, k, share)
-        if centre.hits >= sure and centre.hits >= share * most:
+        if centre.hits < sure or abs(centre.x - x) >= reach or abs(centre.y - y) >= reach:
+            continue
+        most, weight, to_x, to_y = neighbourhood(centres, table, k, share)
+        if centre.hits >= share * most:
             points[n, 0], points[n, 1] = centre.x, centre.y
             n += 1
-            away = math.hypot(x, y)
+            away = math.hypot(to_x, to_y)
             if weight > 0 and away > 0.6 * weight and centre.hits >= 2.0 * share * most:
                 points[n, 0], points[n, 1] = (
-                    centre.x - blunt * x / away,
-                    centre.y - blunt * y / away,
+                    centre.x - blunt * to_x / away,
+                    centre.y - blunt * to_y / away,
                 )
                 n += 1
     return points[:n]

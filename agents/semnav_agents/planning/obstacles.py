@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated
+from functools import cached_property
+from typing import Annotated, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from semnav_agents.planning.free import points_around
 from semnav_agents.planning.obstacle_kernels import (
     CENTRE,
+    OBSTACLE_STATE,
+    TABLE_SIDE,
     MemoryClock,
-    add_hits,
-    forget,
+    MemoryLimits,
+    remember,
     select,
 )
 from semnav_env.world.maps.cell_budget import check_cells
 from semnav_features.checked_fields import Bounds, Count, Length, Share, check_fields
-from semnav_features.frames import FloatArray, Pose, wrap_angle
+from semnav_features.frames import FloatArray, Pose
 
 
 @dataclass(frozen=True)
@@ -54,25 +58,39 @@ class MemorySettings:
     def __post_init__(self) -> None:
         check_fields(self)
 
+    @cached_property
+    def limits(self) -> MemoryLimits:
+        """What decides what is remembered, as kernels take it."""
+        max_age = MemoryClock(float(self.scans), self.travel, self.turned)
+        return MemoryLimits(self.radius, self.merge, self.window, self.through, max_age)
+
+
+MemoryArrays: TypeAlias = tuple[np.ndarray, np.ndarray, NDArray[np.int32]]
+"""State, centres and table of memories, see `remember`; shapes (n,), (n, capacity) and that of the
+table."""
+
 
 class ObstacleMemory:
     """Centres of the hits of recent scans, at most one in each voxel of 5 cm.
 
     A centre through which beams pass is cleared. A centre out of view is kept until the robot has
     driven or turned so far that odometry no longer determines its position.
+
+    Args:
+        settings: duration and resolution.
+        arrays: its own part of those of many memories, with n = 1; new ones if not given.
     """
 
-    def __init__(self, settings: MemorySettings | None = None) -> None:
+    def __init__(
+        self, settings: MemorySettings | None = None, arrays: MemoryArrays | None = None
+    ) -> None:
         self.settings = settings or MemorySettings()
-        self._centres = np.zeros(self.settings.capacity, dtype=CENTRE)
+        self._state, self._centres, self._table = arrays or memory_arrays(1, self.settings)
         self.reset()
 
     def reset(self) -> None:
         """Forget everything."""
-        self._count = 0
-        self._scan = 0
-        self._travel = self._turned = 0.0
-        self._pose: Pose | None = None
+        self._state[:] = 0
 
     def update(
         self, lidar_pose_in_odom: Pose, ranges: ArrayLike, directions: FloatArray, range_max: float
@@ -99,49 +117,39 @@ class ObstacleMemory:
             raise ValueError(f"lidar_pose_in_odom is {lidar_pose_in_odom}; it must be finite")
         if len(distances) < 3:
             return
-        self._advance(lidar_pose_in_odom)
-        s = self.settings
-        now = MemoryClock(float(self._scan), self._travel, self._turned)
-        max_age = MemoryClock(float(s.scans), s.travel, s.turned)
-        pose = lidar_pose_in_odom
-        self._count, table = forget(
-            self._centres,
-            self._count,
-            pose,
+        x, y, heading = lidar_pose_in_odom
+        remember(
+            self._state[0],
+            self._centres[0],
+            self._table,
+            (float(x), float(y), float(heading)),
             distances,
             directions,
-            range_max,
-            now,
-            max_age,
-            s.radius,
-            s.through,
-        )
-        self._count = add_hits(
-            self._centres,
-            self._count,
-            table,
-            pose,
-            distances,
-            directions,
-            range_max,
-            now,
-            s.radius,
-            s.merge,
-            s.window,
+            float(range_max),
+            self.settings.limits,
         )
 
     def points(self) -> FloatArray:
         """The obstacles, metres in the odometry frame, shape (N, 2)."""
-        s = self.settings
-        chosen: FloatArray = select(self._centres[: self._count], s.sure, s.share, s.blunt)
+        return self._select(0.0, 0.0, math.inf)
+
+    def near(self, pose: Pose, reach: float) -> FloatArray:
+        """Those of `points` around a pose, see `points_around`."""
+        return points_around(pose, self._select(pose[0], pose[1], reach), reach)
+
+    def _select(self, x: float, y: float, reach: float) -> FloatArray:
+        s, centres = self.settings, self._centres[0, : self._state["count"][0]]
+        chosen: FloatArray = select(centres, self._table, x, y, reach, s.sure, s.share, s.blunt)
         return chosen
 
-    def _advance(self, pose: Pose) -> None:
-        if self._pose is not None:
-            self._travel += math.dist(pose[:2], self._pose[:2])
-            self._turned += abs(wrap_angle(pose[2] - self._pose[2]))
-        self._pose = pose
-        self._scan += 1
+
+def memory_arrays(count: int, settings: MemorySettings) -> MemoryArrays:
+    """The arrays of some memories, which share a table."""
+    return (
+        np.zeros(count, OBSTACLE_STATE),
+        np.zeros((count, settings.capacity), CENTRE),
+        np.full((TABLE_SIDE, TABLE_SIDE), -1, np.int32),
+    )
 
 
 def points_of_segments(segments: FloatArray, spacing: float = 0.02) -> FloatArray:

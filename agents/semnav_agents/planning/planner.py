@@ -20,6 +20,7 @@ from semnav_agents.planning.collision import (
 )
 from semnav_agents.planning.free import all_clear, clearances
 from semnav_agents.planning.guidance import Guidance, guidance_to
+from semnav_agents.planning.heuristic import least_seconds
 from semnav_agents.planning.lanes import lane_anchors
 from semnav_agents.planning.motion import MotionCosts, SafetyMargin
 from semnav_agents.planning.path import MAX_CLEARANCE, PlannedPath, sampled
@@ -159,9 +160,14 @@ def _ways(
     def way(margin: float) -> Guidance:
         return guidance_to(target, start, field, body, margin, costs)
 
-    widest, least = way(settings.margins[0]), way(settings.margins[-1])
+    widest = way(settings.margins[0])
+    shortest = least_seconds(field, target, start, costs)
+    surely = widest.exact and widest.seconds <= shortest + settings.detour
+    if surely:  # then the quickest of all need not even be looked for
+        yield widest
+    least = way(settings.margins[-1])
     settled = widest.seconds <= least.seconds + settings.detour < math.inf
-    if settled:
+    if settled and not surely:
         yield widest
     ways = [widest, *map(way, settings.margins[1:-1]), least]
     order = sorted(range(len(ways)), key=lambda k: ways[k].seconds + k * settings.detour)

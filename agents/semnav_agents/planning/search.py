@@ -83,7 +83,8 @@ class SearchTree(NamedTuple):
         kind: last kind of motion, (N,).
         bend: last curvature, 1/m; NaN unless a primitive came last, (N,).
         done: whether the node was expanded, (N,).
-        bins: node of each bin, or -1, (y, x, heading).
+        bins: numbers of the bins that have a node, -1 in free places, (2^n,); see `bin_place`.
+        node_in: node of the bin in each of these places, (2^n,).
         node_count: number of nodes, (1,); an array, so that kernels can change it.
     """
 
@@ -94,7 +95,8 @@ class SearchTree(NamedTuple):
     kind: NDArray[np.int64]
     bend: FloatArray
     done: NDArray[np.bool_]
-    bins: NDArray[np.int32]
+    bins: NDArray[np.int64]
+    node_in: NDArray[np.int32]
     node_count: NDArray[np.int64]
 
 
@@ -114,8 +116,11 @@ def seconds_left(problem: SearchProblem, pose: Pose) -> float:
 
 
 @kernel
-def new_tree(start: Pose, anchors: FloatArray, capacity: int, cells: int) -> SearchTree:
+def new_tree(start: Pose, anchors: FloatArray, capacity: int) -> SearchTree:
     """A tree of the start alone, with room for `capacity` nodes."""
+    places = 1
+    while places < 3 * capacity:
+        places *= 2
     tree = SearchTree(
         np.zeros((capacity, 3)),
         np.full(capacity, np.inf),
@@ -124,7 +129,8 @@ def new_tree(start: Pose, anchors: FloatArray, capacity: int, cells: int) -> Sea
         np.full(capacity, STILL, dtype=np.int64),
         np.full(capacity, np.nan),
         np.zeros(capacity, dtype=np.bool_),
-        np.full((cells, cells, HEADING_BINS), -1, dtype=np.int32),
+        np.full(places, -1, dtype=np.int64),
+        np.empty(places, dtype=np.int32),
         np.array([2 + len(anchors)]),
     )
     tree.pose[0] = start
@@ -137,6 +143,20 @@ def new_tree(start: Pose, anchors: FloatArray, capacity: int, cells: int) -> Sea
 def pose_of(tree: SearchTree, node: int) -> Pose:
     """The node's axle pose."""
     return tree.pose[node, 0], tree.pose[node, 1], tree.pose[node, 2]
+
+
+@kernel
+def bin_place(tree: SearchTree, number: int) -> int:
+    """The place of a bin in `tree.bins`: where it is, or the free place where it belongs.
+
+    A hash table with linear probing: an array with a place for every bin of the window would take
+    longer to make than most searches.
+    """
+    last = len(tree.bins) - 1
+    place = (number * 2654435761 >> 12) & last  # Knuth's multiplicative hash
+    while tree.bins[place] >= 0 and tree.bins[place] != number:
+        place = (place + 1) & last
+    return place
 
 
 @kernel
@@ -171,13 +191,20 @@ def connect(
 
 
 @kernel
+def _cells_across(field: ObstacleField) -> int:
+    """Number of bins of position along a side of the window."""
+    cells: int = math.ceil(field.distance.shape[0] * FIELD_CELL / POSITION_BIN)
+    return cells
+
+
+@kernel
 def expand(
     problem: SearchProblem, tree: SearchTree, heap: list[tuple[float, int]], node: int
 ) -> None:
     """Add the nodes to which the primitives lead."""
     field, costs = problem.field, problem.costs
     pose = pose_of(tree, node)
-    cells = tree.bins.shape[0]
+    cells = _cells_across(problem.field)
     for k in range(len(problem.primitives)):
         move = move_at(problem.primitives, k)
         x, y, heading = moved(pose[0], pose[1], pose[2], move)
@@ -185,7 +212,8 @@ def expand(
         if not (0 <= i < cells and 0 <= j < cells) or tree.node_count[0] >= len(tree.cost):
             continue
         angle = math.floor(heading / (2.0 * math.pi) * HEADING_BINS) % HEADING_BINS
-        there = tree.bins[j, i, angle]
+        place = bin_place(tree, (j * cells + i) * HEADING_BINS + angle)
+        there = tree.node_in[place] if tree.bins[place] >= 0 else -1
         cost = tree.cost[node] + change_cost(tree.kind[node], kind_of(move), costs)
         cost += steering_cost(tree.bend[node], curvature(move), costs)
         if there >= 0 and (tree.done[there] or cost + duration(move, costs) >= tree.cost[there]):
@@ -197,7 +225,8 @@ def expand(
         if there < 0:
             there = tree.node_count[0]
             tree.node_count[0] += 1
-            tree.bins[j, i, angle] = there
+            tree.bins[place] = (j * cells + i) * HEADING_BINS + angle
+            tree.node_in[place] = there
         tree.pose[there] = x, y, heading
         tree.cost[there], tree.parent[there] = cost, node
         tree.move[there], tree.kind[there], tree.bend[there] = k, kind_of(move), curvature(move)
@@ -214,9 +243,8 @@ def search(
         moves, shape (M, 3); whether they reach the aim (otherwise they lead to the pose with the
         least time left); the number of nodes that were expanded.
     """
-    cells = math.ceil(problem.field.distance.shape[0] * FIELD_CELL / POSITION_BIN)
     capacity = 2 + len(anchors) + max_expansions * 8
-    tree = new_tree(start, anchors, capacity, cells)
+    tree = new_tree(start, anchors, capacity)
     heap = [(0.0, 0)]
     expanded, best, least = 0, 0, seconds_left(problem, start)
     limit = max_expansions

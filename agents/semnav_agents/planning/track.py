@@ -88,6 +88,51 @@ class PathLeg(NamedTuple):
     last: int
 
 
+class TrackArrays(NamedTuple):
+    """A `PathTrack` of M samples and L legs, as kernels take it.
+
+    Attributes:
+        poses: of the axle at the samples, (M, 3).
+        distance: travelled up to each sample, metres, (M,).
+        curvature: of the step after each sample, 1/m, (M - 1,).
+        speed: at each sample, m/s, (M,).
+        left: part to the left of the move after each sample, metres, (M - 1,).
+        legs: rows as `PathLeg`, (L, 3).
+    """
+
+    poses: FloatArray
+    distance: FloatArray
+    curvature: FloatArray
+    speed: FloatArray
+    left: FloatArray
+    legs: NDArray[np.int64]
+
+
+class FollowerLimits(NamedTuple):
+    """Those of `FollowerSettings` and of the robot that decide how a path is followed.
+
+    Attributes:
+        braking: deceleration with which stops are planned, m/s^2.
+        turn_braking: the same of turns on the spot, rad/s^2.
+        max_acceleration: of the robot, m/s^2.
+        holonomic: whether the robot can move sideways.
+    """
+
+    creep: float
+    sideways: float
+    turn_rate: float
+    stiffness: float
+    preview: float
+    done_distance: float
+    done_angle: float
+    lost: float
+    lost_at_turn: float
+    braking: float
+    turn_braking: float
+    max_acceleration: float
+    holonomic: bool
+
+
 @dataclass(frozen=True, eq=False)
 class PathTrack:
     """A path for one robot, with legs and speeds that are computed once."""
@@ -138,6 +183,34 @@ class PathTrack:
             step = self.distance[k + 1] - self.distance[k]
             limit[k] = min(limit[k], math.sqrt(limit[k + 1] ** 2 + 2.0 * braking * step))
         return limit
+
+    @cached_property
+    def arrays(self) -> TrackArrays:
+        """What the follower needs to know of the path."""
+        legs = np.array([tuple(leg) for leg in self.legs], np.int64).reshape(-1, 3)
+        left = self.path.moves[self.path.move_of, 1]
+        profile = self.distance, self.curvature, self.speed
+        return TrackArrays(self.path.axle_poses, *profile, left, legs)
+
+    @cached_property
+    def limits(self) -> FollowerLimits:
+        """What the follower needs to know of the settings and the robot."""
+        s, robot = self.settings, self.robot
+        return FollowerLimits(
+            creep=float(s.creep),
+            sideways=float(s.sideways),
+            turn_rate=float(s.turn_rate),
+            stiffness=float(s.stiffness),
+            preview=float(s.preview),
+            done_distance=float(s.done_distance),
+            done_angle=float(s.done_angle),
+            lost=float(s.lost),
+            lost_at_turn=float(s.lost_at_turn),
+            braking=float(s.braking * robot.max_acceleration),
+            turn_braking=float(s.braking * robot.max_turn_acceleration),
+            max_acceleration=float(robot.max_acceleration),
+            holonomic=bool(robot.holonomic),
+        )
 
     @property
     def _kinds(self) -> NDArray[np.int64]:

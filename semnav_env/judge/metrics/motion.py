@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from semnav_env.robots import RobotSpec
 from semnav_env.world.maps.floor_plan import FloorPlan
-from semnav_env.world.maps.placement import footprint
+from semnav_env.world.maps.placement import corners
 from semnav_features.frames import FloatArray
 
 MAX_CLEARANCE = 10.0
@@ -59,7 +60,14 @@ def clearances(poses: FloatArray, robot: RobotSpec, floor_plan: FloorPlan) -> Fl
 
 def footprints(poses: FloatArray, robot: RobotSpec) -> NDArray[np.object_]:
     """The rectangles that a robot covers at some poses, as Shapely polygons, shape (n,)."""
-    return np.array([footprint(robot, (x, y, heading)) for x, y, heading in poses.tolist()])
+    cosine, sine = np.array([(math.cos(turn), math.sin(turn)) for turn in poses[:, 2].tolist()]).T
+    x, y = corners(robot).T
+    rings = (
+        poses[:, :1] + cosine[:, None] * x - sine[:, None] * y,
+        poses[:, 1:2] + sine[:, None] * x + cosine[:, None] * y,
+    )
+    polygons: NDArray[np.object_] = shapely.polygons(np.stack(rings, axis=-1))
+    return polygons
 
 
 def collisions_per_100m(collisions: int, path_length: float) -> float:

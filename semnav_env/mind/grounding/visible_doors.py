@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_env.mind.grounding.door_geometry import lies_across
 from semnav_env.rules import GroundingRules
 from semnav_features.corridor import doorway_at
 from semnav_features.frames import FloatArray, Pose, to_local
+from semnav_features.kernels.compiling import kernel
 from semnav_features.scene import Door, Scene, ends_of
 
 VIEW_SAMPLES = (0.2, 0.5, 0.8)
@@ -33,15 +35,8 @@ def doors_around(
         rules: distances.
     """
     doors = [door for door in scene.doors if own is None or not _is_same(door, own, rules)]
-    walls, openings = ends_of(scene.walls), ends_of(doors)
-    seen = []
-    for k, door in enumerate(doors):
-        between = np.vstack((walls, np.delete(openings, k, axis=0)))
-        places = places_in(door)
-        reach = np.array(pose[:2]) + FREE_SHARE * (places - np.array(pose[:2]))
-        if any(not _is_crossed(between, pose, place) for place in reach):
-            seen.append(door)
-    return seen
+    seen = in_view(ends_of(doors), ends_of(scene.walls), pose[0], pose[1])
+    return [door for door, is_seen in zip(doors, seen.tolist(), strict=True) if is_seen]
 
 
 def doors_across(scene: Scene, pose: Pose, own: Door | None, rules: GroundingRules) -> list[Door]:
@@ -68,17 +63,49 @@ def _is_same(door: Door, other: Door, rules: GroundingRules) -> bool:
     return math.dist(door.midpoint, other.midpoint) < rules.same_door_distance
 
 
-def _is_crossed(segments: FloatArray, pose: Pose, place: FloatArray) -> bool:
-    """Whether the line from a pose to a place crosses one of the segments, shape (n, 4).
+@kernel
+def in_view(openings: FloatArray, walls: FloatArray, x: float, y: float) -> NDArray[np.bool_]:
+    """Whether each opening is in view from a place, behind no wall and through no other opening.
 
-    It does if the ends of the segment lie on different sides of the line, and the pose and the
-    place on different sides of the segment.
+    Args:
+        openings: x and y of both ends, metres, shape (n, 4).
+        walls: the same, shape (m, 4).
+        x: of the place, metres.
+        y: the same.
+
+    Returns:
+        Shape (n,).
     """
-    x, y = pose[0], pose[1]
-    dx, dy = place - (x, y)
-    first = dx * (segments[:, 1] - y) - dy * (segments[:, 0] - x)
-    last = dx * (segments[:, 3] - y) - dy * (segments[:, 2] - x)
-    rx, ry = segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1]
-    here = rx * (y - segments[:, 1]) - ry * (x - segments[:, 0])
-    there = rx * (place[1] - segments[:, 1]) - ry * (place[0] - segments[:, 0])
-    return bool(((first * last < 0.0) & (here * there < 0.0)).any())
+    seen = np.zeros(len(openings), np.bool_)
+    for k in range(len(openings)):
+        door = openings[k]
+        for share in VIEW_SAMPLES:
+            there_x = x + FREE_SHARE * (door[0] + share * (door[2] - door[0]) - x)
+            there_y = y + FREE_SHARE * (door[1] + share * (door[3] - door[1]) - y)
+            hidden = _is_crossed(walls, -1, x, y, there_x, there_y)
+            if not hidden and not _is_crossed(openings, k, x, y, there_x, there_y):
+                seen[k] = True
+                break
+    return seen
+
+
+@kernel
+def _is_crossed(
+    segments: FloatArray, but: int, x: float, y: float, there_x: float, there_y: float
+) -> bool:
+    """Whether the line from (x, y) to another place crosses a segment other than number `but`.
+
+    It does if the ends of the segment lie on different sides of the line, and both places on
+    different sides of the segment.
+    """
+    dx, dy = there_x - x, there_y - y
+    for k in range(len(segments)):
+        x1, y1, x2, y2 = segments[k, 0], segments[k, 1], segments[k, 2], segments[k, 3]
+        first, last = dx * (y1 - y) - dy * (x1 - x), dx * (y2 - y) - dy * (x2 - x)
+        if k == but or not first * last < 0.0:
+            continue
+        here = (x2 - x1) * (y - y1) - (y2 - y1) * (x - x1)
+        there = (x2 - x1) * (there_y - y1) - (y2 - y1) * (there_x - x1)
+        if here * there < 0.0:
+            return True
+    return False

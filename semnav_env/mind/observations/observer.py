@@ -161,6 +161,15 @@ class EntryObservation:
         self._write(row, moment.tracker.senses)
         entries: dict[str, Array] = dict(zip(self._names, self._split(row)))  # noqa: B905, slower
         entries["command"] = moment.tokens.ravel().astype(np.int16)
+        return entries | self.observe_extra(moment)
+
+    def observe_extra(self, moment: Moment) -> dict[str, Any]:
+        """The extra entries alone.
+
+        Raises:
+            ValueError: one of them is not in its space.
+        """
+        entries = {}
         for entry, space in self._extra:
             value = entries[entry.name] = entry.observe(moment)
             check_observation(value, space, f"observation entry {entry.name!r}")

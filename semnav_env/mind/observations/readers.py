@@ -13,6 +13,9 @@ from semnav_env.mind.grounding.goal import GoalKind
 from semnav_env.mind.observations.layout import GOAL, GOAL_KINDS, MEMORY_TABLES, ODOMETRY, TABLES
 from semnav_features.frames import Pose, Twist
 
+_COLUMNS = {entry.name: len(entry.columns) for entry in (*TABLES, *MEMORY_TABLES)}
+"""Number of columns of each feature."""
+
 
 def table(observation: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
     """The rows of a feature that count, such as walls or doors, shape (n, columns).
@@ -25,10 +28,9 @@ def table(observation: dict[str, NDArray[Any]], name: str) -> NDArray[Any]:
     Raises:
         ValueError: no such feature.
     """
-    columns = {entry.name: len(entry.columns) for entry in (*TABLES, *MEMORY_TABLES)}
-    if name not in columns:
-        raise ValueError(f"no feature {name!r}; there are: {', '.join(columns)}")
-    rows = observation[name].reshape(-1, columns[name])
+    if name not in _COLUMNS:
+        raise ValueError(f"no feature {name!r}; there are: {', '.join(_COLUMNS)}")
+    rows = observation[name].reshape(-1, _COLUMNS[name])
     return rows[observation[f"{name}_mask"] > 0.5]
 
 

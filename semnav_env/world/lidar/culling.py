@@ -26,8 +26,9 @@ NEAR = 3.5
 """Segments within this distance of a cell's centre, metres, come first in its list: drawn first,
 they hide many of the others."""
 
-MAX_KEPT_BYTES = 64_000_000
-"""How much memory lists take that nobody uses now: those of some 50 offices."""
+MAX_KEPT_BYTES = 256_000_000
+"""How much memory lists take that nobody uses now: those of some 200 offices, more than the 120 of
+a split; lists that are dropped are made again in a later episode."""
 
 MAX_CULLING_CELLS = 10_000
 """Largest number of cells: it bounds the time that the lists of a plan take."""
@@ -74,11 +75,11 @@ class Culling:
                 f"segments of shape {rows.shape} must be finite and of shape (n, 4): x1, y1, x2, y2"
             )
         grid = _grid(rows)
-        starts = _list_starts(rows, grid, range_max)
+        starts, near = _list_starts(rows, grid, range_max)
         while starts[-1] > MAX_CELLS and len(starts) > 3:  # more than one cell
             grid = _grid(rows, 2.0 * float(grid["cell"][0]))
-            starts = _list_starts(rows, grid, range_max)
-        return cls(grid, starts, _listed_ends(rows, grid, range_max, starts))
+            starts, near = _list_starts(rows, grid, range_max)
+        return cls(grid, starts, _listed_ends(rows, grid, range_max, starts, near))
 
 
 Cullings: TypeAlias = WeakValueDictionary[tuple[bool, float], Culling]
@@ -164,15 +165,15 @@ def _reach(g: Any, range_max: float) -> Any:
 
 
 @kernel
-def _reaches(segment: FloatArray, x: float, y: float, reach: float) -> Any:
-    """Whether the segment comes within `reach` of a point."""
+def _squared_distance(segment: FloatArray, x: float, y: float) -> Any:
+    """From the segment to a point, square metres."""
     dx, dy = segment[2] - segment[0], segment[3] - segment[1]
     to_x, to_y = x - segment[0], y - segment[1]
     squared = dx * dx + dy * dy
     along = (to_x * dx + to_y * dy) / squared if squared > 0.0 else 0.0
     along = min(max(along, 0.0), 1.0)
     off_x, off_y = to_x - along * dx, to_y - along * dy
-    return off_x * off_x + off_y * off_y <= reach * reach
+    return off_x * off_x + off_y * off_y
 
 
 @kernel
@@ -189,51 +190,61 @@ def _cells_near(segment: FloatArray, g: Any, reach: float) -> tuple[int, int, in
 
 
 @kernel
-def _list_starts(segments: FloatArray, grid: np.ndarray, range_max: float) -> NDArray[np.int64]:
+def _list_starts(
+    segments: FloatArray, grid: np.ndarray, range_max: float
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Where each list begins, see `Culling.starts`, and how many of a cell's segments are near."""
     g = grid[0]
     reach = _reach(g, range_max)
     starts = np.zeros(g.columns * g.rows + 2, np.int64)
+    near = np.zeros(g.columns * g.rows, np.int64)
     for k in range(len(segments)):
         segment = segments[k]
         first, last, low, high = _cells_near(segment, g, reach)
         for row in range(low, high):
             for cell in range(row * g.columns + first, row * g.columns + last):
                 x, y = _centre(g, cell)
-                starts[cell + 1] += _reaches(segment, x, y, reach)
+                squared = _squared_distance(segment, x, y)
+                starts[cell + 1] += squared <= reach * reach
+                near[cell] += squared <= min(reach, NEAR) * min(reach, NEAR)
     for i in range(g.columns * g.rows):
         starts[i + 1] += starts[i]
     starts[-1] = starts[-2] + len(segments)
-    return starts
+    return starts, near
 
 
 @kernel
 def _listed_ends(
-    segments: FloatArray, grid: np.ndarray, range_max: float, starts: NDArray[np.int64]
+    segments: FloatArray,
+    grid: np.ndarray,
+    range_max: float,
+    starts: NDArray[np.int64],
+    near: NDArray[np.int64],
 ) -> FloatArray:
+    """The listed segments, see `Culling.ends`: in each list the near ones first."""
     g = grid[0]
     reach = _reach(g, range_max)
-    ends, used = np.empty((4, starts[-1])), np.zeros(len(starts) - 1, np.int64)
-    everything = len(starts) - 2
-    for turn in range(2):  # first those that are near a cell
-        for k in range(len(segments)):
-            segment = segments[k]
-            if turn == 0:
-                _list(segment, ends, starts, used, everything)
-            first, last, low, high = _cells_near(segment, g, reach)
-            for row in range(low, high):
-                for cell in range(row * g.columns + first, row * g.columns + last):
-                    x, y = _centre(g, cell)
-                    is_near = _reaches(segment, x, y, NEAR)
-                    if is_near == (turn == 0) and _reaches(segment, x, y, reach):
-                        _list(segment, ends, starts, used, cell)
+    ends, cells = np.empty((4, starts[-1])), g.columns * g.rows
+    nearer, farther = starts[:cells].copy(), starts[:cells] + near  # the next free places
+    for k in range(len(segments)):
+        segment = segments[k]
+        _put(ends, starts[cells] + k, segment)
+        first, last, low, high = _cells_near(segment, g, reach)
+        for row in range(low, high):
+            for cell in range(row * g.columns + first, row * g.columns + last):
+                x, y = _centre(g, cell)
+                squared = _squared_distance(segment, x, y)
+                if squared <= min(reach, NEAR) * min(reach, NEAR):
+                    _put(ends, nearer[cell], segment)
+                    nearer[cell] += 1
+                elif squared <= reach * reach:
+                    _put(ends, farther[cell], segment)
+                    farther[cell] += 1
     return ends
 
 
 @kernel
-def _list(
-    segment: FloatArray, ends: FloatArray, starts: Any, used: NDArray[np.int64], cell: int
-) -> None:
-    """Append a segment to the list of a cell."""
+def _put(ends: FloatArray, place: int, segment: FloatArray) -> None:
+    """Write a segment into a place of the lists."""
     for i in range(4):
-        ends[i, starts[cell] + used[cell]] = segment[i]
-    used[cell] += 1
+        ends[i, place] = segment[i]
