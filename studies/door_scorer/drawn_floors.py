@@ -140,8 +140,8 @@ def _furnish(
         spot = shapely.Point(x, y)
         if not room.contains(spot) or spot.distance(ways) < DOORWAY_CLEARANCE:
             continue
-        make = rng.choice((things.table, things.chair, things.clutter), p=(0.35, 0.1, 0.55))
-        make(x, y)
+        kinds = things.table, things.chair, things.clutter
+        kinds[rng.choice(len(kinds), p=(0.35, 0.1, 0.55))](x, y)
 
 
 def _place(region: shapely.Polygon, rng: Generator) -> tuple[float, float]:
