@@ -38,7 +38,7 @@ SPEED_SECONDS = 0.5
 """Time before and after the doorway over which the speed is taken, seconds."""
 
 
-class Doorway(Protocol):
+class PassableDoor(Protocol):
     """A door of a plan or of a map."""
 
     @property
@@ -130,7 +130,7 @@ def driving_habits(passages: Sequence[DoorPassage]) -> DrivingHabits:
 
 
 def door_passages(
-    poses: FloatArray, seconds: FloatArray, doors: Iterable[Doorway]
+    poses: FloatArray, seconds: FloatArray, doors: Iterable[PassableDoor]
 ) -> tuple[DoorPassage, ...]:
     """Every passage through a doorway, in the order of time.
 
@@ -157,7 +157,7 @@ def door_passages(
     return tuple(sorted(found, key=lambda passage: passage.seconds))
 
 
-def _crossings(path: FloatArray, door: Doorway) -> Iterator[tuple[int, float]]:
+def _crossings(path: FloatArray, door: PassableDoor) -> Iterator[tuple[int, float]]:
     """Rows after which a path crosses a doorway for good, each with 1 if to the left of it, or -1.
 
     The left is that of the line from the door's start to its end.
@@ -183,7 +183,7 @@ def _crossings(path: FloatArray, door: Doorway) -> Iterator[tuple[int, float]]:
 
 
 def _passage(
-    poses: FloatArray, seconds: FloatArray, door: Doorway, row: int, towards: float
+    poses: FloatArray, seconds: FloatArray, door: PassableDoor, row: int, towards: float
 ) -> DoorPassage:
     """The passage of a doorway between a row and the next one.
 

@@ -21,7 +21,8 @@ folder with the real logs.
 
 SOURCES = {
     "Barbret 2021": "Geometric Feature Extraction for Indoor Navigation, bachelor's thesis",
-    "Weerakoon et al.": "Geometric Feature Extraction from 2D Laser Range Data for Mobile Robots",
+    "Weerakoon et al.": "Geometric Feature Extraction from 2D Laser Range Data for Mobile Robot "
+    "Navigation",
     "Yan et al.": "Arc/line segments extraction from unknown indoor environment with laser sensor",
     "Mes 2021": "Point planning and drift correction based on reliable door detection, thesis",
 }
