@@ -23,6 +23,7 @@ MAY_NEED = {
     "semnav_features/kernels/lanes.py": {"llvmlite"},  # numba's own compiler
     "semnav_features/mapping": {"scipy"},
     "semnav_features/plot.py": {"matplotlib"},
+    "semnav_features/plot_passages.py": {"matplotlib"},
     "semnav_features/readers": {"rosbags", "lz4"},  # lz4 comes with rosbags
 }
 

@@ -17,6 +17,7 @@ SEMNAV = CommandTable(
             "demo": "let a robot carry out a command",
             "serve": "open a page in the browser to try it in",
             "follow": "follow a command on a recorded log, as a robot would",
+            "habits": "measure how drivers pass doorways, in logs and episodes",
             "node": "carry out spoken commands on a robot, by ROS 1, ROS 2 or DDS",
             "simulate": "be a simulated robot for such a node",
             "ground": "say what a command refers to in a floor plan",

@@ -57,8 +57,8 @@ def _ends(gaps: np.ndarray) -> FloatArray:
     along = np.stack((gaps["along_x"], gaps["along_y"]), axis=1)
     start = np.stack((gaps["start_x"], gaps["start_y"]), axis=1)
     end = np.stack((gaps["end_x"], gaps["end_y"]), axis=1)
-    start = start + 0.5 * gaps["start_spacing"][:, None] * along
-    end = end - 0.5 * gaps["end_spacing"][:, None] * along
+    start = start + 0.5 * gaps["start_slack"][:, None] * along
+    end = end - 0.5 * gaps["end_slack"][:, None] * along
     return np.concatenate((start, end), axis=1)
 
 

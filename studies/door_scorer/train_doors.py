@@ -1,9 +1,10 @@
-"""Trains the scorer that tells doors from other gaps, on simulated scans of random offices.
+"""Trains the scorer that tells doors from other gaps, on simulated scans.
 
-    python -m studies train_doors features/semnav_features/door_scorer.json
+    python -m studies train_doors features/semnav_features/door_scorer.json --kth KTH_FLOORS
 
-makes the file that comes with the package, byte for byte on one machine. No floor plan that
-comes with the package and no real scan is used.
+makes the file that comes with the package, byte for byte on one machine, from random offices and
+from drawn floors of real buildings. No floor plan that comes with the package and no real scan is
+used.
 """
 
 from __future__ import annotations
@@ -11,37 +12,23 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import tyro
-from numpy.random import Generator, default_rng
+from numpy.random import default_rng
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from semnav_env.world.lidar.lidar import Lidar
 from semnav_features import ExtractorSettings
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.evidence_layout import EVIDENCE_NAMES
-from semnav_features.lidar_spec import TIM561, LidarSpec
 from semnav_features.scan import Scan
 from semnav_features.scene import Door
 from studies.door_scorer.door_candidates import apart, candidates_of
-from studies.door_scorer.random_offices import random_office
-
-HALF_DEGREE = LidarSpec("half_degree", 361, -math.pi / 2, math.radians(0.5))
-TRAINING_LIDARS = (TIM561, HALF_DEGREE)
-"""Offices are scanned by these in turn."""
-
-RANGE_SIGMAS = (0.0, 0.01, 0.02, 0.03)
-"""Standard deviations of the simulated ranges, metres."""
-
-EDGE_JUMP = 0.1
-"""Least difference of neighbouring ranges at an edge, metres."""
-
-MIXED_SHARE = 0.2
-"""Share of the beams at edges that read a mixture of both ranges."""
+from studies.door_scorer.drawn_floors import drawn_floors
+from studies.door_scorer.training_scans import scans_of_floors, scans_of_offices
 
 MAX_DOOR_ERROR = 0.2
 """A gap is a door if both its jambs are this near to those of a door, metres."""
@@ -53,21 +40,28 @@ used."""
 
 @dataclass(frozen=True)
 class Arguments:
-    """Train the scorer that tells doors from other gaps, on simulated scans of random offices.
+    """Train the scorer that tells doors from other gaps, on simulated scans.
 
     Attributes:
         out: file to write.
+        kth: folder with the floors of the KTH data set as BUILDING/FLOOR.xml; without it only
+            random offices are trained on.
         offices: how many random offices.
         poses: scans in each.
+        layouts: how many times each drawn floor is furnished anew.
+        floor_poses: scans in each layout.
         hidden: units.
         decay: weight of the squared weights in the loss.
         seed: of offices, poses, noise and first weights.
     """
 
     out: tyro.conf.Positional[Path]
+    kth: Path | None = None
     offices: int = 1500
     poses: int = 8
-    hidden: int = 8
+    layouts: int = 16
+    floor_poses: int = 30
+    hidden: int = 12
     decay: float = 1e-4
     seed: int = 0
 
@@ -84,7 +78,7 @@ def collect(training: Arguments) -> tuple[FloatArray, FloatArray]:
     """The evidence of every decided gap, shape (n, k), and whether it is a door (1) or not (0)."""
     settings = ExtractorSettings(door_confidence_min=0.0)
     parts = []
-    for scan, doors in simulated_scans(training.offices, training.poses, training.seed):
+    for scan, doors in training_scans(training):
         gaps = candidates_of(scan, settings)
         nearest = apart(gaps.ends, doors).min(axis=1, initial=math.inf)
         decided = (nearest <= MAX_DOOR_ERROR) | (nearest > MIN_OTHER_ERROR)
@@ -93,30 +87,12 @@ def collect(training: Arguments) -> tuple[FloatArray, FloatArray]:
     return np.concatenate(evidence), np.concatenate(labels).astype(np.float64)
 
 
-def simulated_scans(offices: int, poses: int, seed: int) -> Iterator[tuple[Scan, tuple[Door, ...]]]:
-    """Scans from corridors and rooms, with the doors of the office in the lidar frame."""
-    for number in range(offices):
-        rng = default_rng((seed, number))
-        office = random_office(rng, furnished=number % 8 != 0)
-        spec = replace(
-            TRAINING_LIDARS[number % 2], sigma=RANGE_SIGMAS[number // 2 % len(RANGE_SIGMAS)]
-        )
-        lidar = Lidar(office.floor_plan, spec)
-        for k in range(poses):
-            pose = office.any_pose(rng) if k % 2 else office.corridor_pose(rng)
-            scan = blurred(lidar.scan(pose, (seed, number, k)), rng)
-            yield scan, office.doors_from(pose)
-
-
-def blurred(scan: Scan, rng: Generator) -> Scan:
-    """The scan with some beams that met an edge with half of their width, and read a mixture."""
-    ranges = scan.ranges.copy()
-    with np.errstate(invalid="ignore"):  # no return beside no return
-        jumps = np.abs(np.diff(ranges)) > EDGE_JUMP
-    edges = np.flatnonzero(jumps & (rng.random(len(jumps)) < MIXED_SHARE))
-    share = rng.random(len(edges))
-    ranges[edges] = share * scan.ranges[edges] + (1.0 - share) * scan.ranges[edges + 1]
-    return replace(scan, ranges=ranges)
+def training_scans(training: Arguments) -> Iterator[tuple[Scan, tuple[Door, ...]]]:
+    """Scans of the random offices, then of the drawn floors, with the doors in the lidar frame."""
+    yield from scans_of_offices(training.offices, training.poses, training.seed)
+    if training.kth is not None:
+        floors = drawn_floors(training.kth)
+        yield from scans_of_floors(floors, training.layouts, training.floor_poses, training.seed)
 
 
 def fit(evidence: FloatArray, labels: FloatArray, training: Arguments) -> dict[str, object]:

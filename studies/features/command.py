@@ -17,7 +17,7 @@ from studies.doors.real_doors import FREIBURG, FREIBURG_LABELS, door_sheet, look
 from studies.features.figures import save_figures
 from studies.features.real_logs import find_logs, log_row, log_sheet
 from studies.features.report import in_short, sheets
-from studies.features.study import DEFAULT_STRATEGY, Study, all_strategies
+from studies.features.study import DEFAULT_STRATEGY, Extractor, Study, all_extractors
 from studies.sheets import Cell, ResultSheet
 
 
@@ -29,7 +29,8 @@ class Arguments:
         plans: floor plans, bundled names or paths; all bundled ones if none is given.
         poses: random poses in each plan without clutter, and as many with it; 0 for none.
         sigma: standard deviations of the ranges, metres.
-        strategies: names of strategies of the extractor, or "all".
+        strategies: names of strategies of the extractor, "barbret" for the chain of his thesis, or
+            "all".
         data: folder with real logs in a folder carmen, freiburg-079 among them.
         labels: file with the openings of freiburg-079; by default the one of the package.
         every: take each Nth scan of a real log.
@@ -73,7 +74,7 @@ class Arguments:
         """The noise that is told in detail: the lidar's, or the nearest to it."""
         return min(self.sigma, key=lambda sigma: abs(sigma - ExtractorSettings().sigma))
 
-    def _check(self) -> dict[str, ExtractorSettings]:
+    def _check(self) -> dict[str, Extractor]:
         """The strategies that were asked for, if all arguments are in order."""
         for name, least in (("poses", 0), ("every", 1), ("seed", 0)):
             if getattr(self, name) < least:
@@ -84,7 +85,7 @@ class Arguments:
             raise ValueError("--poses is 0 and there is no --data: nothing to measure")
         if self.out is not None and self.out.exists() and not self.out.is_dir():
             raise ValueError(f"--out is {self.out}, which is a file; give a folder")
-        known = all_strategies()
+        known = all_extractors()
         names = tuple(known) if "all" in self.strategies else self.strategies
         if DEFAULT_STRATEGY not in names:
             names = (DEFAULT_STRATEGY, *names)

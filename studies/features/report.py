@@ -42,13 +42,15 @@ def sheets(study: Study, sigma: float) -> list[ResultSheet]:
 
 
 def in_short(study: Study, sigma: float) -> list[ResultSheet]:
-    """Recall and precision over all poses for one noise; the strategies if there are several."""
+    """Recall and precision over all poses for one noise, of every strategy if there are several."""
     outcome = study.pooled(sigma=sigma)
     rows = [(kind.label, *_counts(outcome, kind)) for kind in FeatureKind]
     short = ResultSheet(
         f"Over all poses, sigma {1e3 * sigma:g} mm", ("feature", *COUNT_COLUMNS), rows
     )
-    return [short, strategies(study)] if len(study.strategies) > 1 else [short]
+    if len(study.strategies) == 1:
+        return [short]
+    return [features_by_strategy(study, sigma), strategies(study)]
 
 
 def found_and_missed(study: Study) -> ResultSheet:
@@ -112,6 +114,17 @@ def strategies(study: Study) -> ResultSheet:
         *("corner F1, potential", "median us a scan"),
     )
     return ResultSheet("Strategies", columns, rows)
+
+
+def features_by_strategy(study: Study, sigma: float) -> ResultSheet:
+    """Recall and precision of every kind with every strategy, over all poses for one noise."""
+    rows = [
+        (name, kind.label, *_counts(study.pooled(name, sigma), kind))
+        for name in study.strategies
+        for kind in FeatureKind
+    ]
+    title = f"Features by strategy, sigma {1e3 * sigma:g} mm"
+    return ResultSheet(title, ("strategy", "feature", *COUNT_COLUMNS), rows)
 
 
 def by_bin(

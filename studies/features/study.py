@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import time
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import IntEnum
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from semnav_env.world.maps import FloorPlan
-from semnav_features import ExtractorSettings, extract
+from semnav_features import ExtractorSettings, Scan, Scene, extract
 from semnav_features.strategies import BreakpointRule, Segmentation, strategy_names
+from studies.features.barbret_chain import barbret_scene
 from studies.features.cases import Case, CaseSituation, draw_cases
 from studies.features.comparison import compare
 from studies.features.metrics import Table
@@ -29,8 +31,11 @@ CHOICES: dict[str, type[IntEnum]] = {
 }
 """The settings that name a strategy."""
 
-Strategies = Mapping[str, ExtractorSettings]
-"""Named settings of the extractor."""
+THESIS_STRATEGY = "barbret"
+"""Name of the chain of Barbret's thesis in the tables."""
+
+Extractor = Callable[[Scan], Scene]
+"""What turns a scan into a scene."""
 
 
 def all_strategies() -> dict[str, ExtractorSettings]:
@@ -45,12 +50,20 @@ def all_strategies() -> dict[str, ExtractorSettings]:
     return found
 
 
+def all_extractors() -> dict[str, Extractor]:
+    """An extractor for every strategy, and the chain of Barbret's thesis."""
+    found: dict[str, Extractor] = {
+        name: partial(extract, settings=settings) for name, settings in all_strategies().items()
+    }
+    return found | {THESIS_STRATEGY: barbret_scene}
+
+
 @dataclass(frozen=True)
 class Condition:
     """What a set of scans has in common.
 
     Attributes:
-        strategy: name of the extractor's settings.
+        strategy: name of the extractor.
         situation: where they were taken.
         sigma: standard deviation of the ranges, metres.
     """
@@ -97,13 +110,13 @@ class Study:
     """Extracts, compares and keeps what was found.
 
     Attributes:
-        strategies: what to try.
+        strategies: the extractors to try, by name.
         limits: what is in good view, and what counts as found.
         outcomes: so far, by condition.
         cases: how many were taken into account.
     """
 
-    strategies: Strategies
+    strategies: Mapping[str, Extractor]
     limits: CountingLimits = field(default_factory=CountingLimits)
     outcomes: dict[Condition, Outcome] = field(default_factory=dict)
     cases: int = 0
@@ -142,12 +155,12 @@ class Study:
     def _take(self, cases: Iterable[Case]) -> Iterator[Case]:
         tallies: dict[Condition, _Tally] = defaultdict(_Tally)
         for case in cases:
-            for name, settings in self.strategies.items():
+            for name, look in self.strategies.items():
                 for sigma, scan in case.scans:
                     tally = tallies[Condition(name, case.situation, sigma)]
-                    extract(scan, settings)  # what was done before has filled the caches
+                    look(scan)  # what was done before has filled the caches
                     begin = time.perf_counter()
-                    found = extract(scan, settings)
+                    found = look(scan)
                     tally.seconds.append(time.perf_counter() - begin)
                     sightings, detections = compare(scan, case.truth, found, self.limits)
                     tally.sightings += sightings

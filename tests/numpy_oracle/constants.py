@@ -31,6 +31,9 @@ END_ON = 0.1
 LONGEST_SPACING = 0.3
 """`doors`: how far from its last point a jamb may lie, metres."""
 
+LONGEST_REVEAL = 0.5
+"""`jambs`: a longer piece is no reveal, metres."""
+
 MOST_VEILED = 2
 """`filters`: beams in a row that may be a veil."""
 
@@ -92,6 +95,8 @@ class Evidence:
     narrow: float = 0.8
     wide: float = 0.9
     front: float = 0.1
+    at_reveal: float = 0.1
+    reveal_hits: int = 2
     beside: float = 0.8
     band: float = 0.05
     band_slope: float = 0.06

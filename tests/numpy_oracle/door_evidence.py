@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_features.frames import FloatArray
 from semnav_features.settings import ExtractorSettings
@@ -21,6 +22,7 @@ class Jamb:
     point: FloatArray
     beam: int
     piece: int
+    is_reveal: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +37,7 @@ class Gap:
         distance: of the scanner from the chord's line, metres.
         start_spacing: between the hits of neighbouring beams on that line, metres.
         end_spacing: the same at the end.
+        slack: how far the jambs at start and end may lie inside the gap, metres.
         confidence: how likely it is a door.
     """
 
@@ -45,6 +48,7 @@ class Gap:
     distance: float
     start_spacing: float
     end_spacing: float
+    slack: tuple[float, float]
     confidence: float = 0.0
 
     @property
@@ -75,12 +79,27 @@ def _cross(directions: FloatArray, along: FloatArray) -> FloatArray:
 
 def is_open(gap: Gap, sweep: Sweep, settings: ExtractorSettings) -> bool:
     """Whether a gap is deep, clear and no shadow."""
-    beyond, across = gap.beyond(sweep, gap.beams)
-    is_deep = bool((across >= settings.door_recess).any())
+    beyond, _ = gap.beyond(sweep, gap.beams)
+    is_deep = bool(deep_beams(gap, sweep, settings).any())
     clear = np.count_nonzero(beyond >= settings.door_depth)
     is_clear = clear >= settings.door_clear_fraction * len(beyond)
     in_shadow = min(beyond[0], beyond[-1]) < -settings.door_shadow
     return bool(is_deep and is_clear and not in_shadow)
+
+
+def deep_beams(gap: Gap, sweep: Sweep, settings: ExtractorSettings) -> NDArray[np.bool_]:
+    """Which beams get deeper than a recess; if none does, which ones end at the far jamb's side."""
+    _, across = gap.beyond(sweep, gap.beams)
+    deep = across >= settings.door_recess
+    if deep.any():
+        return deep
+    hits = sweep.ranges[gap.beams, None] * sweep.directions[gap.beams]
+    near, far = sorted((gap.start.point, gap.end.point), key=lambda jamb: float(jamb @ jamb))
+    past = (hits - far) @ (far - near) / gap.width
+    at_reveal = np.abs(past) <= EVIDENCE.at_reveal
+    is_filled = bool((past < -EVIDENCE.at_reveal).any())
+    is_seen = np.count_nonzero(at_reveal) >= EVIDENCE.reveal_hits and not is_filled
+    return at_reveal if is_seen else np.zeros_like(deep)
 
 
 def evidence_of(
@@ -89,7 +108,7 @@ def evidence_of(
     """Everything in the scorer's list of inputs, by name."""
     beyond, across = gap.beyond(sweep, gap.beams)
     jumps = np.clip(beyond[[0, -1]], -0.5, 1.0)
-    width = gap.width - 0.5 * (gap.start_spacing + gap.end_spacing)
+    width = gap.width - 0.5 * sum(gap.slack)
     away = float(np.linalg.norm(gap.middle))
     walls = [_best_wall(gap, step, pieces, settings) for step in (-1, 1)]
     missing = [_missing_wall(gap, step, sweep) for step in (-1, 1)]
@@ -99,7 +118,7 @@ def evidence_of(
         **_more_or_less("missing_wall", missing),
         **_more_or_less("misfit", [misfit for misfit, _ in walls]),
         "clear_share": float(np.mean(beyond >= settings.door_depth)),
-        "deep_share": float(np.mean(across >= settings.door_recess)),
+        "deep_share": float(np.mean(deep_beams(gap, sweep, settings))),
         "front_share": float(np.mean(beyond < -EVIDENCE.front)),
         "mean_depth": float(np.mean(np.clip(across, 0.0, EVIDENCE.deepest))),
         "log_beams": math.log(len(beyond)),

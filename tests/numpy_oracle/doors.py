@@ -12,7 +12,7 @@ import numpy as np
 from semnav_features.frames import FloatArray
 from semnav_features.scene import Door
 from semnav_features.settings import ExtractorSettings
-from tests.numpy_oracle.constants import LONGEST_SPACING, SCORER_FILE
+from tests.numpy_oracle.constants import LONGEST_REVEAL, LONGEST_SPACING, SCORER_FILE
 from tests.numpy_oracle.door_evidence import Gap, Jamb, evidence_of, is_open
 from tests.numpy_oracle.door_leaf import find_leaf
 from tests.numpy_oracle.sweep import Sweep
@@ -56,7 +56,7 @@ def _candidates(sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings) 
 def _jambs(
     sweep: Sweep, pieces: list[Piece], settings: ExtractorSettings
 ) -> tuple[list[Jamb], list[Jamb]]:
-    """Where openings may start and end: the ends of pieces, and of groups beyond them."""
+    """Where openings may start and end: the ends of pieces, of groups beyond them, and reveals."""
     once = [k for k, p in enumerate(pieces) if not sweep.turn or p.beams[0] < sweep.turn]
     starts = [Jamb(pieces[k].end, pieces[k].beams[-1], k) for k in once]
     ends = [Jamb(piece.start, piece.beams[0], k) for k, piece in enumerate(pieces)]
@@ -68,7 +68,23 @@ def _jambs(
         if not any(pieces[k].beams[0] <= last <= pieces[k].beams[-1] for k in once):
             k = next((k for k in once[::-1] if pieces[k].beams[-1] < last), -1)
             starts.append(Jamb(sweep.points([last])[0], last, k))
+        for k in once:
+            piece, recedes = pieces[k], _recedes(pieces[k])
+            is_within = first <= piece.beams[0] and piece.beams[-1] <= last
+            meets = k > 0 and pieces[k - 1].beams[-1] >= piece.beams[0]
+            if piece.beams[-1] == last and recedes > 0 and not meets:
+                starts.append(Jamb(piece.start, piece.beams[0], k - 1, is_reveal=True))
+            met = k + 1 < len(pieces) and pieces[k + 1].beams[0] <= piece.beams[-1]
+            if is_within and piece.beams[0] == first and recedes < 0 and not met:
+                ends.append(Jamb(piece.end, piece.beams[-1], k + 1, is_reveal=True))
     return sorted(starts, key=lambda j: j.beam), sorted(ends, key=lambda j: j.beam)
+
+
+def _recedes(piece: Piece) -> int:
+    """1 if a piece short enough for a reveal leads away from the scanner, -1 if towards it."""
+    if piece.length > LONGEST_REVEAL:
+        return 0
+    return int(np.sign(piece.end @ piece.end - piece.start @ piece.start))
 
 
 def _gap(start: Jamb, end: Jamb, sweep: Sweep, settings: ExtractorSettings) -> Gap | None:
@@ -85,8 +101,9 @@ def _gap(start: Jamb, end: Jamb, sweep: Sweep, settings: ExtractorSettings) -> G
     if distance <= 0.0:
         return None
     spacing = [_spacing(jamb.point, distance, sweep.increment) for jamb in (start, end)]
-    too_wide = width > widest + 2.0 * LONGEST_SPACING or width - sum(spacing) > widest
-    return None if too_wide else Gap(start, end, along, width, distance, spacing[0], spacing[1])
+    slack = tuple([0.0 if j.is_reveal else s for j, s in zip((start, end), spacing, strict=True)])
+    too_wide = width > widest + 2.0 * LONGEST_SPACING or width - sum(slack) > widest
+    return None if too_wide else Gap(start, end, along, width, distance, *spacing, slack)
 
 
 def _farthest_beam(jamb: Jamb, widest: float, sweep: Sweep) -> int:
@@ -103,7 +120,7 @@ def _spacing(point: FloatArray, distance: float, increment: float) -> float:
 
 
 def _door(gap: Gap, pieces: list[Piece]) -> Door:
-    first = gap.start.point + 0.5 * gap.start_spacing * gap.along
-    last = gap.end.point - 0.5 * gap.end_spacing * gap.along
+    first = gap.start.point + 0.5 * gap.slack[0] * gap.along
+    last = gap.end.point - 0.5 * gap.slack[1] * gap.along
     ends = (tuple(first.tolist()), tuple(last.tolist()))
     return Door(*ends, confidence=gap.confidence, leaf=find_leaf(gap, pieces))

@@ -104,6 +104,7 @@ WRITERS = (
         ("scenes.jsonl", "page.pdf"),
     ),
     Writer("follow", "follow {inputs}/drive.log stop --plot {out}/seen.png", ("seen.png",)),
+    Writer("habits", "habits {inputs}/drive.log --plot {out}/habits.png", ("habits.png",)),
     Writer(
         "approach",
         "approach --map office_cross --door west_north_2 --plot {out}/pose.svg",

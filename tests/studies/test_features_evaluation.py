@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from semnav_env.world.maps import bundled_names, load_floor_plan
-from semnav_features import Door, ExtractorSettings, Scene
+from semnav_features import Door, ExtractorSettings, Scene, extract
 from studies.__main__ import STUDIES
 from studies.doors.door_sightings import Gate
 from studies.doors.openings import read_openings
@@ -42,7 +42,7 @@ def test_strategies_differ_from_the_default_in_one_choice_each():
 
 def test_the_extractor_keeps_its_level_on_a_small_sample():
     """Far below what docs/lab/features_evaluation.md reports, so that only a break shows."""
-    study = Study({DEFAULT_STRATEGY: ExtractorSettings()})
+    study = Study({DEFAULT_STRATEGY: extract})
     plans = [load_floor_plan(name) for name in bundled_names()]
     for _ in study.run(plans, 12, (0.02,), (False, True), seed=7):
         pass

@@ -118,7 +118,8 @@ class GapTrial:
         if fault == beams.TOO_SHALLOW:
             deepest = across.max()
             return (
-                f"no beam gets deeper than {deepest:.3f} m; door_recess is {settings.door_recess:g}"
+                f"no beam gets deeper than {deepest:.3f} m, and too few end at the side of the far "
+                f"jamb alone; door_recess is {settings.door_recess:g}"
             )
         clear = (across >= settings.door_depth * slant).mean()
         return (

@@ -33,6 +33,12 @@ FITS, IN_SHADOW, TOO_SHALLOW, TOO_COVERED = range(4)
 FRONT_DISTANCE = 0.1
 """A beam that ends farther than this before the chord, metres, is stopped in front of the gap."""
 
+REVEAL_TOLERANCE = 0.1
+"""A hit on the reveal, the side of the far jamb, lies within this of it along the chord, metres."""
+
+MIN_REVEAL_HITS = 2
+"""Fewest beams that must end at the reveal: one alone may be a mixture of two ranges at an edge."""
+
 FLANK_LENGTH = 0.8
 """Length of the chord's line beside each jamb in which a wall is looked for, metres."""
 
@@ -55,10 +61,13 @@ def measure_gap(gap: Any, settings: Any, scratch: Any, evidence: Any) -> int:
     For a unit vector d of a beam and the chord's unit direction u, the sine d x u of the angle
     between them turns a length along the beam into one across the chord.
 
+    A door that is seen at a grazing angle shows no more than its reveal, the side of its far jamb,
+    which may be less deep than a recess. Beams that end there count as deep if no beam is.
+
     Returns:
         `FITS` if the gap can be an opening. It cannot if a beam beside a jamb ends in front of the
         chord, for then the jamb is only the edge of a shadow (`IN_SHADOW`), if no beam gets deeper
-        than a recess (`TOO_SHALLOW`), or if too few pass (`TOO_COVERED`).
+        than a recess or ends at the reveal (`TOO_SHALLOW`), or if too few pass (`TOO_COVERED`).
     """
     ranges, directions = scratch.ranges, scratch.directions
     range_min, limit = scratch.range_min, scratch.limit
@@ -80,6 +89,8 @@ def measure_gap(gap: Any, settings: Any, scratch: Any, evidence: Any) -> int:
         depth += min(max(across, 0.0), MAX_DEPTH)
     beams = last - first + 1
     if deep == 0:
+        deep = count_reveal_hits(gap, scratch)
+    if deep == 0:
         return TOO_SHALLOW
     if clear < settings.door_clear_fraction * beams:
         return TOO_COVERED
@@ -91,6 +102,27 @@ def measure_gap(gap: Any, settings: Any, scratch: Any, evidence: Any) -> int:
     evidence.jump_less = min(start_jump, end_jump)
     evidence.jump_more = max(start_jump, end_jump)
     return FITS
+
+
+@kernel
+def count_reveal_hits(gap: Any, scratch: Any) -> int:
+    """Number of beams that end at the reveal, the side of the far jamb.
+
+    0 if they are fewer than `MIN_REVEAL_HITS`, or if a beam ends before the far jamb: then
+    something fills the opening, such as a closed leaf. Every beam must have a return.
+    """
+    middle = 0.5 * (gap.start_x + gap.end_x) * gap.along_x
+    middle += 0.5 * (gap.start_y + gap.end_y) * gap.along_y
+    side = 1.0 if middle > 0.0 else -1.0  # the direction along the chord away from the scanner
+    far_jamb = side * middle + 0.5 * gap.width
+    hits = 0
+    for beam in range(gap.first, gap.last + 1):
+        dx, dy = scratch.directions[beam, 0], scratch.directions[beam, 1]
+        along = side * scratch.ranges[beam] * (dx * gap.along_x + dy * gap.along_y)
+        if along < far_jamb - REVEAL_TOLERANCE:
+            return 0
+        hits += along <= far_jamb + REVEAL_TOLERANCE
+    return hits if hits >= MIN_REVEAL_HITS else 0
 
 
 @kernel
@@ -131,7 +163,7 @@ def measure_place(gap: Any, along_x: float, along_y: float, length: float, evide
         length: of that wall, metres.
         evidence: written.
     """
-    width = gap.width - 0.5 * (gap.start_spacing + gap.end_spacing)
+    width = gap.width - 0.5 * (gap.start_slack + gap.end_slack)
     evidence.width_below = max(USUAL_WIDTH_MIN - width, 0.0)
     evidence.width_above = max(width - USUAL_WIDTH_MAX, 0.0)
     x, y = 0.5 * (gap.start_x + gap.end_x), 0.5 * (gap.start_y + gap.end_y)

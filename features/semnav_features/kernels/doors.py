@@ -133,7 +133,8 @@ def set_gap(start: Any, end: Any, increment: float, settings: Any, gap: Any) -> 
     """Write the gap between two jambs; returns `FITS` if it can have the width of a door.
 
     A jamb lies up to one beam spacing past the last point that was seen, so the width is only
-    known as an interval; it must meet the interval of door widths.
+    known as an interval; it must meet the interval of door widths. The near end of a reveal is the
+    jamb itself: it has no such slack.
 
     Returns:
         `FITS`, `TOO_NARROW`, `TOO_WIDE` or `FROM_BEHIND`.
@@ -151,11 +152,13 @@ def set_gap(start: Any, end: Any, increment: float, settings: Any, gap: Any) -> 
         return FROM_BEHIND
     gap.start_spacing = beam_spacing(start, gap.distance, increment)
     gap.end_spacing = beam_spacing(end, gap.distance, increment)
+    gap.start_slack = 0.0 if start.is_reveal else gap.start_spacing
+    gap.end_slack = 0.0 if end.is_reveal else gap.end_spacing
     gap.width, gap.along_x, gap.along_y = width, x, y
     gap.start_x, gap.start_y, gap.end_x, gap.end_y = start.x, start.y, end.x, end.y
     gap.first, gap.last = start.beam + 1, end.beam - 1
     gap.start_piece, gap.end_piece = start.piece, end.piece
-    return FITS if width - gap.start_spacing - gap.end_spacing <= widest else TOO_WIDE
+    return FITS if width - gap.start_slack - gap.end_slack <= widest else TOO_WIDE
 
 
 @kernel
@@ -203,8 +206,8 @@ def suppress_near(candidates: np.ndarray, best: int, nearest: float) -> None:
 
 @kernel
 def write_door(gap: Any, pieces: np.ndarray, door: Any) -> None:
-    """Write a door, its jambs where they are expected: half a beam spacing past the last points."""
-    start, end = 0.5 * gap.start_spacing, 0.5 * gap.end_spacing
+    """Write a door, its jambs where they are expected: in the middle of their slack."""
+    start, end = 0.5 * gap.start_slack, 0.5 * gap.end_slack
     door.start_x, door.start_y = (
         gap.start_x + start * gap.along_x,
         gap.start_y + start * gap.along_y,

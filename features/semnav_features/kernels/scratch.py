@@ -39,15 +39,16 @@ projected ends and their distance, first and last point now and at the last fit,
 CANDIDATE = np.dtype(
     [(name, "f8") for name in ("start_x", "start_y", "end_x", "end_y", "along_x", "along_y")]
     + [(name, "f8") for name in ("width", "distance", "start_spacing", "end_spacing")]
-    + [("confidence", "f8")]
+    + [(name, "f8") for name in ("start_slack", "end_slack", "confidence")]
     + [(name, "i8") for name in ("first", "last", "start_piece", "end_piece", "state")]
 )
 """A possible door: its last points, unit direction and width, the scanner's `distance` from its
-line, the spacing of the beams at its jambs, the `first` and `last` beam between them, the pieces
-beside them; `state` is 0 open, 1 kept, 2 suppressed."""
+line, the spacing of the beams at its jambs, the slack (how far these may lie inside), the `first`
+and `last` beam between them, the pieces beside them; `state` is 0 open, 1 kept, 2 suppressed."""
 
-JAMB = np.dtype([("x", "f8"), ("y", "f8"), ("beam", "i8"), ("piece", "i8")])
-"""A possible jamb, the beam that saw it, and the piece there or the next one beside it."""
+JAMB = np.dtype([("x", "f8"), ("y", "f8"), ("beam", "i8"), ("piece", "i8"), ("is_reveal", "i8")])
+"""A possible jamb, the beam that saw it, the piece there or the next one beside it, and whether it
+is the near end of a reveal, which is the jamb itself."""
 
 JOINT = np.dtype(
     [("x", "f8"), ("y", "f8")] + [(name, "i8") for name in ("kind", "partner", "start_meets")]

@@ -1,8 +1,9 @@
-"""A door of a map: the median of its sightings, and whether its doorway stayed open."""
+"""A door of a map: the weighted median of its sightings, and whether its doorway stayed open."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,29 +19,33 @@ class MapDoor:
 
     Attributes:
         seen: both jambs of every sighting, rows (x1, y1, x2, y2) in metres, in one direction.
+        weights: of each sighting, 0 to 1: how square the door was met.
         belief: sum of the confidences of the sightings.
-        ends: the median of the sightings.
+        ends: the weighted median of the sightings.
         passage: evidence of beams for its opening.
     """
 
     seen: list[FloatArray]
+    weights: list[float]
     belief: float
     ends: FloatArray = field(init=False)
     passage: DoorwayEvidence = field(init=False)
 
     def __post_init__(self) -> None:
-        self.ends = np.median(self.seen, axis=0)
+        self.ends = weighted_median(self.seen, self.weights)
         self.passage = DoorwayEvidence(self.ends)
 
-    def see(self, door: FloatArray, confidence: float) -> None:
+    def see(self, door: FloatArray, weight: float, confidence: float) -> None:
         """Add a sighting, in whichever direction."""
         self.seen.append(self._alike(door))
+        self.weights.append(weight)
         self.belief += confidence
         self._agree()
 
     def absorb(self, other: MapDoor) -> None:
         """Take over the sightings of another door, and its beam counts if they are larger."""
         self.seen += map(self._alike, other.seen)
+        self.weights += other.weights
         self.belief += other.belief
         if other.passage.looks > self.passage.looks:
             self.passage = other.passage
@@ -74,8 +79,28 @@ class MapDoor:
 
     def _agree(self) -> None:
         """Take the median of the sightings; restart the beam counts if this moved the door."""
-        self.ends = np.median(self.seen, axis=0)
+        self.ends = weighted_median(self.seen, self.weights)
         if not self.passage.lies_along(self.ends):
             looks = self.passage.looks
             self.passage = DoorwayEvidence(self.ends)
             self.passage.looks = looks
+
+
+def weighted_median(rows: Sequence[FloatArray], weights: Sequence[float]) -> FloatArray:
+    """For each column the mean of the lower and the upper weighted median.
+
+    With equal weights this is the median.
+
+    Args:
+        rows: values, each of shape (k,).
+        weights: positive, one for each row.
+    """
+    values, share = np.array(rows), np.array(weights)
+    order = np.argsort(values, axis=0)
+    ordered = np.take_along_axis(values, order, axis=0)
+    reached = np.cumsum(share[order], axis=0)
+    half = 0.5 * share.sum() * (1.0 + np.array((-1e-9, 1e-9)))
+    lower, upper = [(reached < level).sum(axis=0) for level in half]
+    columns = np.arange(values.shape[1])
+    middle: FloatArray = 0.5 * (ordered[lower, columns] + ordered[upper, columns])
+    return middle

@@ -13,6 +13,9 @@ from semnav_features.mapping.map_door import MapDoor
 from semnav_features.mapping.map_settings import MapSettings
 from semnav_features.scan import Scan
 
+LEAST_WEIGHT = 1e-3
+"""Least weight of a sighting, so that a door that was seen from nowhere else has a place."""
+
 
 class MapDoors:
     """Doors seen over time, in the map's frame.
@@ -31,7 +34,7 @@ class MapDoors:
         for door in doors:
             if math.hypot(*door.midpoint) < reach:
                 ends = np.array((*to_parent(pose, door.start), *to_parent(pose, door.end)))
-                self._see(ends, door.confidence)
+                self._see(ends, squareness(door), door.confidence)
         for known in self._doors:
             if math.dist((known.ends[:2] + known.ends[2:]) / 2, pose[:2]) < reach:
                 known.passage.observe(scan, pose)
@@ -45,12 +48,12 @@ class MapDoors:
                 kept.append(door)
         return tuple(door.as_door() for door in self._doors if door in kept)
 
-    def _see(self, ends: FloatArray, confidence: float) -> None:
+    def _see(self, ends: FloatArray, weight: float, confidence: float) -> None:
         known = self._nearest(ends, self._doors)
         if known is None:
-            self._doors.append(MapDoor([ends], confidence))
+            self._doors.append(MapDoor([ends], [weight], confidence))
             return
-        known.see(ends, confidence)
+        known.see(ends, weight, confidence)
         # Sightings that seemed to be of two doors may have come to agree.
         other = self._nearest(known.ends, [door for door in self._doors if door is not known])
         if other is not None:
@@ -70,3 +73,18 @@ class MapDoors:
             and door.share >= s.door_share
             and door.passage.openness >= s.door_open
         )
+
+
+def squareness(door: Door) -> float:
+    """Weight of a sighting for the place of a door: the squared cosine of the angle from square.
+
+    The spacing of the hits along the chord grows with one over this cosine, and so does the error
+    of the jambs.
+
+    Args:
+        door: in the lidar frame.
+    """
+    x, y = door.midpoint
+    along_x, along_y = door.end[0] - door.start[0], door.end[1] - door.start[1]
+    across = (along_x * y - along_y * x) / (door.width * max(math.hypot(x, y), 1e-9))
+    return max(across * across, LEAST_WEIGHT)

@@ -1,0 +1,1 @@
+"""The four documents that the project is built from, item by item."""

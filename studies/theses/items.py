@@ -1,0 +1,343 @@
+"""Every item of the four documents that can be compared, with what is measured here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from studies.theses.lab_tables import Figure
+
+BARBRET, WEERAKOON, YAN, MES = "Barbret 2021", "Weerakoon et al.", "Yan et al.", "Mes 2021"
+
+BY_EYE = "by eye, no figure"
+"""What a document says of something that it judged by looking at pictures."""
+
+NOT_BUILT = "not built"
+"""What stands for an item that this project does not have."""
+
+
+@dataclass(frozen=True)
+class ThesisItem:
+    """A row of the table.
+
+    Attributes:
+        document: where it stands.
+        section: section, table, figure or formula there.
+        what: is compared.
+        theirs: their figure.
+        ours: this project's, in words with a place for each of `figures`, as "{} of doors".
+        figures: cells of the documentation's tables.
+        command: prints them, or shows the thing.
+    """
+
+    document: str
+    section: str
+    what: str
+    theirs: str
+    ours: str
+    command: str
+    figures: tuple[Figure, ...] = ()
+
+    def row(self) -> tuple[str, str, str, str, str]:
+        """Section, what, theirs, ours and command, as a line of the table has them."""
+        ours = self.ours.format(*[figure.read() for figure in self.figures])
+        command = f"`{self.command}`" if self.command else ""
+        return self.section, self.what, self.theirs, ours, command
+
+
+def _barbret(feature: str, section: str) -> ThesisItem:
+    cells = [
+        Figure("lab/features.md", (chain, feature), column)
+        for chain in ("thesis", "here")
+        for column in ("recall", "precision")
+    ]
+    return ThesisItem(
+        BARBRET,
+        section,
+        f"{feature}: recall, precision",
+        f"{BY_EYE}; its chain measured here: {cells[0].read()}, {cells[1].read()}",
+        "{}, {}",
+        "python -m studies features --poses 100 --sigma 0.02 --strategies barbret",
+        (cells[2], cells[3]),
+    )
+
+
+def _frames(depth: str) -> ThesisItem:
+    return ThesisItem(
+        BARBRET,
+        "figure 5.4",
+        f"three open doors in frame 536, simulated, jambs {depth} deep: all three found",
+        "2 of 3 in the real frame",
+        "{} of the scans from there, {} from around",
+        "python -m studies frames",
+        tuple(
+            [
+                Figure("lab/features.md", (depth, place), "all three")
+                for place in ("there", "around")
+            ]
+        ),
+    )
+
+
+def _clouds(category: str, theirs: str) -> ThesisItem:
+    return ThesisItem(
+        MES,
+        "table 8.2",
+        f"doors found in clouds of category {category}",
+        theirs,
+        "{}; her pipeline on the same clouds, cropped by hand: {}",
+        "python -m studies clouds",
+        tuple(
+            [
+                Figure("lab/point_clouds.md", (name,), category)
+                for name in ("DoorFinder", "Mes 2021, crop by hand")
+            ]
+        ),
+    )
+
+
+def _segmentation(rule: str, theirs: str) -> ThesisItem:
+    return ThesisItem(
+        WEERAKOON,
+        "formula (11)",
+        f"segmentation rate with {rule}, percent",
+        theirs,
+        "{} at 10 mm, {} at 20 mm of noise",
+        "python -m studies segmentation",
+        tuple([Figure("lab/lines.md", (rule,), noise) for noise in ("10 mm", "20 mm")]),
+    )
+
+
+def _columns(diameter: str, distance: str) -> ThesisItem:
+    cell = "found", "radius error, median"
+    return ThesisItem(
+        YAN,
+        "section 2",
+        f"round columns of {diameter} at {distance}: found, error of the radius",
+        BY_EYE,
+        "{}, {}",
+        "python -m studies.figures arcs",
+        tuple([Figure("lab/features.md", (diameter, distance), column) for column in cell]),
+    )
+
+
+ITEMS = (
+    _barbret("walls", "4.4, 4.5"),
+    _barbret("doors", "4.6"),
+    _barbret("full corners", "3.2, 4.7"),
+    _barbret("potential corners", "3.2.1"),
+    _barbret("corridors", "3.3, 4.8"),
+    _frames("0.10 m"),
+    _frames("0.16 m"),
+    _frames("0.25 m"),
+    ThesisItem(
+        BARBRET,
+        "6.2.1",
+        "walls are extended to a common corner",
+        "wished for",
+        "`corner_gap`; median error {} m at 20 mm of noise",
+        "python -m studies features --full",
+        (Figure("lab/features_evaluation.md", ("20", "full corners"), "place, m: median"),),
+    ),
+    ThesisItem(
+        BARBRET,
+        "6.2.2",
+        "features are remembered from scan to scan: doors of the last five scans, real log",
+        "wished for",
+        "recall {}, precision {}",
+        "python -m studies features --poses 0 --data DATA --every 2",
+        tuple(
+            [
+                Figure("lab/features.md", ("all certain", "last 5 scans"), column)
+                for column in ("recall", "precision")
+            ]
+        ),
+    ),
+    ThesisItem(
+        BARBRET,
+        "6.2.3",
+        "a labelled reference: doors of freiburg-079 in single scans",
+        "wished for",
+        "recall {}, precision {}",
+        "python -m studies features --poses 0 --data DATA --every 2",
+        tuple(
+            [
+                Figure("lab/features.md", ("all certain", "single scans"), column)
+                for column in ("recall", "precision")
+            ]
+        ),
+    ),
+    ThesisItem(
+        BARBRET,
+        "6.2.3",
+        "features are added to a map: certain doors of freiburg-079 in it",
+        "wished for",
+        "{} of {}",
+        "python -m studies features --poses 0 --data DATA",
+        tuple(
+            [
+                Figure("lab/mapping.md", ("all certain",), column)
+                for column in ("in the map (both jambs within 25 cm)", "number")
+            ]
+        ),
+    ),
+    ThesisItem(
+        BARBRET,
+        "1.1, 6.3",
+        "commands are carried out: success / without contact, unknown offices",
+        "wished for",
+        "{}",
+        "semnav evaluate val_unseen --agent scripted --episodes 600",
+        (Figure("agents.md", ("`scripted`",), "`val_unseen`"),),
+    ),
+    ThesisItem(
+        BARBRET,
+        "6.3",
+        "driving habits at open doors: median angle in a real log, degrees",
+        "wished for",
+        "{} in {} passages",
+        "semnav habits freiburg-079-corrected.log.gz",
+        tuple([Figure("habits.md", ("log freiburg-079",), c) for c in ("angle", "passages")]),
+    ),
+    ThesisItem(
+        BARBRET,
+        "6.3",
+        "inputs that lead into a door's parts are overridden",
+        "wished for",
+        NOT_BUILT,
+        "",
+    ),
+    _segmentation("(12) Weerakoon et al., 4 degrees", "92.4"),
+    _segmentation("(6) Certad et al., 4 degrees: the default", "82.7"),
+    ThesisItem(
+        WEERAKOON,
+        "table I",
+        "corners of one scan: error in percent of the range",
+        "0.22 to 1.57 (their points; their column has other units)",
+        "median {}, 90th percentile {}",
+        "python -m studies features --full",
+        tuple(
+            [
+                Figure("lab/features_evaluation.md", ("20", "full corners"), column)
+                for column in ("place, % of range: median", "place, % of range: 90 %")
+            ]
+        ),
+    ),
+    ThesisItem(
+        WEERAKOON,
+        "table II",
+        "ten corner landmarks, fused over three poses",
+        "no error given",
+        NOT_BUILT,
+        "",
+    ),
+    ThesisItem(
+        WEERAKOON,
+        "figure 11",
+        "segments before and after merging of three scans",
+        "15, then 9",
+        "not measured; `LineMap` merges walls",
+        "semnav map build LOG --out floor.geojson",
+    ),
+    _columns("0.3 m", "1 to 2 m"),
+    _columns("0.4 m", "3 to 4 m"),
+    _columns("1.0 m", "3 to 4 m"),
+    ThesisItem(
+        YAN, "section 3", "arcs merged over several views", "by eye, no figure", NOT_BUILT, ""
+    ),
+    *[
+        ThesisItem(
+            MES,
+            "table 7.1",
+            f"poses at the door {door}: evaluated, clear of walls, safe",
+            theirs,
+            "{}, {}, {}",
+            "python -m studies.figures approach",
+            tuple(
+                [
+                    Figure("lab/approach.md", (door,), column)
+                    for column in ("evaluated", "clear of walls", "safe")
+                ]
+            ),
+        )
+        for door, theirs in (
+            ("parents", "25, 5, 3"),
+            ("living", "25, 15, 8"),
+            ("kitchen", "25, 15, 9"),
+            ("daughter", "25, 25, 14"),
+        )
+    ],
+    ThesisItem(
+        MES,
+        "table 7.2",
+        "top ten poses of each door: area errors and order",
+        "35 poses",
+        "the same up to ties and two misprints",
+        "python -m studies.figures approach",
+    ),
+    _clouds("A", "3 of 3"),
+    _clouds("B", "3 of 4"),
+    _clouds("C", "1 of 2"),
+    _clouds("D", "0 of 3"),
+    ThesisItem(
+        MES,
+        "8.5",
+        "single jambs found in all clouds",
+        "0.708 (17 of 24)",
+        "{}",
+        "python -m studies clouds",
+        (Figure("lab/point_clouds.md", ("DoorFinder",), "found"),),
+    ),
+    ThesisItem(
+        MES,
+        "2.2, 9.3",
+        "drift corrected by doors: ten rooms visited, error at the end (mean, largest)",
+        "not measured",
+        "{} of the tours, {}; with her detector {}, {}",
+        "python -m studies tour",
+        tuple(
+            [
+                Figure("lab/drift.md", ("1", correction), column)
+                for correction in (
+                    "doors of the 2D lidar, and walls",
+                    "doors in SPOT's clouds (`MesDetector`)",
+                )
+                for column in ("all ten rooms", "error at the end")
+            ]
+        ),
+    ),
+    ThesisItem(
+        MES,
+        "chapter 1",
+        "a room is left by a door: SPOT passes, of 2,000 cases",
+        "no figure",
+        "{}",
+        "python -m studies exits",
+        (Figure("lab/approach.md", ("`ExitViaDoor`", "all 2,000"), "SPOT passes"),),
+    ),
+    ThesisItem(
+        MES,
+        "chapter 1",
+        "houses are searched: victims found, rooms covered, with the plan",
+        "no figure",
+        "{}; {}",
+        "python -m studies search --houses 200",
+        tuple(
+            [
+                Figure("lab/search_and_rescue.md", (row,), "with the plan (`searcher`)")
+                for row in (
+                    "victims found",
+                    "rooms covered by 95 % (Wilson's interval of the share)",
+                )
+            ]
+        ),
+    ),
+    ThesisItem(
+        MES,
+        "chapter 1",
+        "turn and look, call and listen, approach, ask the name",
+        "no figure",
+        "approaching is part of a search; the others: not built",
+        "",
+    ),
+)
+"""All of them, in the order of the documents."""
