@@ -24,7 +24,8 @@ from semnav_env.world.lidar.lidar import Lidar
 from semnav_features import ExtractorSettings
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.evidence_layout import EVIDENCE_NAMES
-from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import TIM561
 from semnav_features.scan import Scan
 from semnav_features.scene import Door
 from studies.door_scorer.door_candidates import apart, candidates_of

@@ -14,7 +14,7 @@ from semnav_env.judge.tasks import EpisodeRequest, RewardWeights
 from semnav_env.mind.observations import EntryObservation
 from semnav_env.rescue import PersonSearch
 from semnav_env.vector import SemNavVectorEnv
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 
 COARSE = replace(TIM561, name="coarse", beams=271, angle_increment=3.0 * TIM561.angle_increment)
 AHEAD = np.full((2, 2), 0.3, np.float32)

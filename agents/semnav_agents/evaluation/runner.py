@@ -27,6 +27,7 @@ from semnav_env.world.maps import FloorPlan
 from semnav_env.world.maps.placement import MAX_DRAWS, has_room, placement_error
 from semnav_features.frames import Pose
 from semnav_features.interruption import for_this_process_alone
+from semnav_features.lidar_spec import LidarSpec
 
 
 @dataclass(frozen=True)
@@ -66,6 +67,7 @@ class SuiteSetup:
     robot: str | RobotSpec
     extras: Extras = NO_EXTRAS
     dynamics: Dynamics = NO_DYNAMICS
+    lidar: str | LidarSpec = "tim561"
 
 
 def run_suite(
@@ -76,6 +78,7 @@ def run_suite(
     workers: int = 1,
     extras: Extras = NO_EXTRAS,
     dynamics: Dynamics = NO_DYNAMICS,
+    lidar: str | LidarSpec = "tim561",
 ) -> Iterator[Result]:
     """The result of every trial with every seed, in their order.
 
@@ -88,12 +91,13 @@ def run_suite(
         workers: processes; results do not depend on it.
         extras: what else to do with each episode.
         dynamics: people, doors and furniture that move.
+        lidar: a lidar or its name.
 
     Raises:
         ValueError: there is no such agent, or with several workers one that other processes
             cannot import.
     """
-    setup = SuiteSetup(agent, robot, extras, dynamics)
+    setup = SuiteSetup(agent, robot, extras, dynamics, lidar)
     jobs = [
         (trial, seed)
         for trial in trials
@@ -145,6 +149,7 @@ class SuiteRunner:
             self._envs[kind] = SemNavEnv(
                 setup.robot,
                 observation=self._agent.observation,
+                lidar=setup.lidar,
                 dynamics=setup.dynamics,
                 max_seconds=max_seconds,
                 render_mode=render_mode,
