@@ -1,4 +1,4 @@
-"""A visitor of the page of `semnav serve` who talks as a browser does; needs Starlette and httpx2."""
+"""A visitor of the page of `semnav serve`, who talks as a browser does."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from typing import Any
 HOME = "http://127.0.0.1:8321"
 SCENE = {"type": "scene", "pose": [-2.5, -0.6, 0.25]}
 SECOND_DOOR = {"type": "command", "text": "go through the second door on the right"}
+
+WALLS = """0,0,8,0\n8,0,8,2\n8,2,4,2\n3,2,0,2\n0,2,0,0\n0,2,0,5\n0,5,8,5\n8,5,8,2\n"""
+"""A corridor, 2 m wide, with an opening of 1 m to a room behind it: lines of a .csv file."""
 
 
 class Visitor:

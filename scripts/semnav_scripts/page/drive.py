@@ -46,6 +46,7 @@ class PageDrive:
         ValueError: there is no such floor plan, or robot or people find no room in it.
 
     Attributes:
+        floor_plan: the plan with its boxes, before leaves are hung into its doors.
         env: the environment.
         start: pose at which every command begins, world frame.
         suggestion: a command that can be carried out from there.
@@ -58,9 +59,10 @@ class PageDrive:
     def __init__(self, scene: SceneRequest, own_plan: FloorPlan | None = None) -> None:
         self.scene = scene
         self._agent = make_agent(scene.agent)
+        self.floor_plan = _with_boxes(_plan_of(scene, own_plan), scene.boxes)
         self.env = SemNavEnv(
             scene.robot,
-            _with_boxes(_plan_of(scene, own_plan), scene.boxes),
+            self.floor_plan,
             observation=self._agent.observation,
             dynamics=Dynamics(
                 pedestrians=scene.people, changing_doors=BY_HAND_ONLY if scene.leaves else 0.0

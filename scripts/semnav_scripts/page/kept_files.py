@@ -27,7 +27,7 @@ def kept_file(what: str, drive: PageDrive) -> bytes:
         ImportError: a film needs the extra "render".
     """
     if what == "plan":
-        return plan_file(drive.env.floor_plan)
+        return plan_file(drive.floor_plan)
     if what == "film":
         return with_name("semnav.gif", gif(drive.frames, drive.control_hz))
     return with_name("episode.jsonl", to_line(_episode(drive)).encode())
@@ -48,7 +48,7 @@ def _episode(drive: PageDrive) -> Episode:
     if drive.said is None:
         raise ValueError("there is no episode yet; give a command first")
     text, language, command = drive.said
-    plan, scene = drive.env.floor_plan, drive.scene
+    plan, scene = drive.floor_plan, drive.scene
     is_listed = scene.plan != OWN and not scene.boxes
     episode = Episode(
         id=f"page-{scene.seed:05d}",

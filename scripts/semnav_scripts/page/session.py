@@ -160,7 +160,7 @@ class PageSession(threading.Thread):
         """The drawing board; at first, and to begin anew, it has the plan of the scene."""
         is_of_scene = self._drive is not None and self._drive.scene.plan == OWN
         if self._board is None or (anew and not is_of_scene):
-            self._board = DrawingBoard(self._scene().env.floor_plan)
+            self._board = DrawingBoard(self._scene().floor_plan)
         return self._board
 
     def _scene(self) -> PageDrive:
