@@ -71,19 +71,26 @@ def test_a_rerun_file_holds_each_moment(capsys, tmp_path, log):
     chunk = pytest.importorskip("rerun.chunk", reason='needs pip install "semnav-env[rerun]"')
     path = tmp_path / "drive.rrd"
     assert f"wrote {path}" in run(capsys, "follow", log, COMMAND, *BEAMS, "--rerun", path)[1]
-    rows: dict[str, list] = {}
-    for part in chunk.RrdReader(path).stream():
-        rows.setdefault(part.entity_path, []).extend(part.to_record_batch().to_pylist())
     expected = believed(log)
-    for entity in ("/world/scan", "/world/walls", "/world/robot", "/world/goal", "/said"):
-        assert len(rows[entity]) == SCANS, entity
-    robots = sorted(rows["/world/robot"], key=lambda row: row["stamp"])
-    for (_, belief), row in zip(expected, robots, strict=True):
-        (origin,) = row["Arrows3D:origins"]
-        np.testing.assert_allclose(origin, (*belief.pose[:2], 0.0), atol=1e-6)
-    scans = sorted(rows["/world/scan"], key=lambda row: row["stamp"])
-    hits = [len(row["Points3D:positions"]) for row in scans]
-    assert hits == [record.scan.valid.sum() for record, _ in expected]
+    for entity in ("/world/walls", "/world/goal", "/said"):
+        assert len(column(chunk, path, entity)) == SCANS, entity
+    origins = column(chunk, path, "/world/robot", "Arrows3D:origins")
+    poses = [belief.pose for _, belief in expected]
+    np.testing.assert_allclose([each[0][:2] for each in origins], [p[:2] for p in poses], atol=1e-6)
+    hits = column(chunk, path, "/world/scan", "Points3D:positions")
+    assert [len(each) for each in hits] == [record.scan.valid.sum() for record, _ in expected]
+
+
+def column(chunk, path, entity, name="stamp"):
+    """The values of an entity in the order of time; without a name its times, nanoseconds."""
+    values = []
+    for part in chunk.RrdReader(path).stream():
+        if part.entity_path == entity:
+            batch = part.to_record_batch()
+            times = batch.column("stamp").cast("int64").to_pylist()
+            found = times if name == "stamp" else batch.column(name).to_pylist()
+            values += zip(times, found, strict=True)
+    return [value for _, value in sorted(values, key=lambda pair: pair[0])]
 
 
 @pytest.mark.parametrize(("option", "module"), [("rerun", "rerun"), ("mcap", "mcap.writer")])

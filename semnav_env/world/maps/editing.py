@@ -31,6 +31,9 @@ OUTLINE_TOLERANCE = 0.02
 FARTHEST_WALL = 8.0
 """Distance from the middle of a corridor at which a wall still bounds it, metres."""
 
+MAX_SLANT = 0.2
+"""Largest angle between a corridor as it is drawn and its walls, radians."""
+
 END_REACH = 1.5
 """Distance by which a corridor grows to the wall at its end, metres."""
 
@@ -89,6 +92,7 @@ def with_corridor(plan: FloorPlan, start: Point, end: Point, name: str = "") -> 
         FloorPlanError: there is no wall on one of its sides, or the name is taken.
     """
     walls = shapely.union_all(_lines(plan))
+    start, end = _aligned(plan, start, end)
     start, end = _far_end(end, start, walls), _far_end(start, end, walls)
     length = math.dist(start, end)
     if length < 2.0 * WALL_DISTANCE:
@@ -221,6 +225,24 @@ def _lines(plan: FloorPlan) -> np.ndarray:
     """Everything solid and the lines of all doors, as lines of Shapely."""
     rows = np.vstack((plan.segments, plan.door_ends))
     return np.asarray(shapely.linestrings(rows.reshape(-1, 2, 2)))
+
+
+def _aligned(plan: FloorPlan, start: Point, end: Point) -> tuple[Point, Point]:
+    """The middle line of a corridor, turned about its middle to run along the walls beside it."""
+    near = plan.segments[plan.solids.query(LineString((start, end)), "dwithin", FARTHEST_WALL / 2)]
+    runs = near[:, 2:] - near[:, :2]
+    x, y = np.subtract(end, start)
+    slants = np.arctan2(x * runs[:, 1] - y * runs[:, 0], x * runs[:, 0] + y * runs[:, 1])
+    slants = (slants + math.pi / 2) % math.pi - math.pi / 2  # a wall has two directions
+    lengths = np.hypot(*runs.T) * (np.abs(slants) < MAX_SLANT)
+    if lengths.sum() == 0.0:
+        return start, end
+    middle = np.add(start, end) / 2
+    turn = float(np.average(slants, weights=lengths))
+    cosine, sine = math.cos(turn), math.sin(turn)
+    half = np.array((cosine * x - sine * y, sine * x + cosine * y))
+    first, last = (middle - half / 2).tolist(), (middle + half / 2).tolist()
+    return (first[0], first[1]), (last[0], last[1])
 
 
 def _far_end(begin: Point, end: Point, walls: BaseGeometry) -> Point:
