@@ -14,7 +14,7 @@ import numpy as np
 
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.writing import replacing
-from semnav_scripts.recording.moment import Moment, Segment
+from semnav_scripts.recording.moment import RecordedMoment, Segment
 
 INSTALL = 'recordings for Foxglove need MCAP: pip install "semnav-env[mcap]"'
 """Said where the extra is missing."""
@@ -61,7 +61,7 @@ class McapWriter:
             for topic, name in TOPICS.items()
         }
 
-    def write(self, moment: Moment) -> None:
+    def write(self, moment: RecordedMoment) -> None:
         """Add a moment; what is said only when it changes."""
         stamp = round(moment.seconds * 1e9)
         when = {"sec": stamp // 10**9, "nsec": stamp % 10**9}

@@ -21,7 +21,7 @@ Segment = tuple[tuple[float, float], tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class Moment:
+class RecordedMoment:
     """A scan and what the robot believes after it. Lengths are metres in the odom frame.
 
     Attributes:
@@ -48,14 +48,14 @@ class Moment:
 class MomentWriter(Protocol):
     """Writes moments into a file."""
 
-    def write(self, moment: Moment) -> None:
+    def write(self, moment: RecordedMoment) -> None:
         """Add a moment; they come in the order of time."""
         ...
 
 
 def moment_of(
     record: LogRecord, belief: Belief, command: Command, mount: Pose, number: int
-) -> Moment:
+) -> RecordedMoment:
     """The moment of a scan.
 
     Args:
@@ -72,7 +72,7 @@ def moment_of(
     clauses = command.clauses
     over = belief.clause >= len(clauses)
     clause = "all clauses done" if over else f"{belief.clause + 1}: {clauses[belief.clause]}"
-    return Moment(
+    return RecordedMoment(
         seconds=number * SECONDS_PER_SCAN if record.stamp is None else record.stamp,
         robot=belief.pose,
         hits=points_to_parent(compose(belief.pose, mount), local),

@@ -15,7 +15,7 @@ import numpy as np
 
 from semnav_features.frames import Pose
 from semnav_features.writing import replacing
-from semnav_scripts.recording.moment import Moment, Segment
+from semnav_scripts.recording.moment import RecordedMoment, Segment
 
 INSTALL = 'recordings for Rerun need its package: pip install "semnav-env[rerun]"'
 """Said where the extra is missing."""
@@ -43,7 +43,7 @@ class RerunWriter:
         self._rerun, self._recording = rerun, recording
         self._way: list[tuple[float, float, float]] = []
 
-    def write(self, moment: Moment) -> None:
+    def write(self, moment: RecordedMoment) -> None:
         """Add a moment."""
         self._recording.set_time("stamp", duration=moment.seconds)
         self._way.append((*moment.robot[:2], 0.0))
