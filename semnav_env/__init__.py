@@ -26,7 +26,8 @@ if TYPE_CHECKING:
     from semnav_env.rules import Rules
     from semnav_env.version import __version__
     from semnav_env.world.maps import generate_office, load_floor_plan
-    from semnav_features.lidar_spec import LidarSpec, lidar_spec
+    from semnav_features.lidar_spec import LidarSpec
+    from semnav_features.lidars import lidar_spec
 
 __all__ = [
     "BeliefTracker",
@@ -56,7 +57,8 @@ __getattr__ = lazy_names(
         ".rules": ("Rules",),
         ".judge.tasks": ("RewardWeights",),
         ".version": ("__version__",),
-        "semnav_features.lidar_spec": ("LidarSpec", "lidar_spec"),
+        "semnav_features.lidar_spec": ("LidarSpec",),
+        "semnav_features.lidars": ("lidar_spec",),
     },
 )
 

@@ -29,7 +29,8 @@ from semnav_env.world.maps import FloorPlan
 from semnav_env.world.simulator import OdometrySettings, RobotSetup, Simulator, odometry_settings
 from semnav_features import ExtractorSettings
 from semnav_features.frames import ORIGIN
-from semnav_features.lidar_spec import LidarSpec, lidar_spec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import lidar_spec
 from semnav_features.one_thread import for_one_thread
 from semnav_features.scene import Scene
 

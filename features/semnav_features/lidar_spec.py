@@ -12,7 +12,7 @@ import numpy as np
 from semnav_features.checked_fields import Bounds, Length, Share, check_fields
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.lanes import WIDTH
-from semnav_features.validation import by_name, require
+from semnav_features.validation import require
 
 CosinesSines: TypeAlias = tuple[FloatArray, FloatArray]
 """Cosines and sines of the directions of beams, each of shape (beams + `WIDTH`,).
@@ -38,7 +38,7 @@ class LidarSpec:
     """A planar lidar. Beams are counter-clockwise; beam i points to angle_min + i angle_increment.
 
     Attributes:
-        name: as in `lidar_spec(name)`.
+        name: as in `semnav_features.lidars.lidar_spec(name)`.
         beams: number of beams.
         angle_min: direction of beam 0 in the lidar frame, radians in [-pi, pi].
         angle_increment: angle between beams, radians; the beams span at most a full turn. It is
@@ -123,36 +123,3 @@ def _tables(
 def most_beams(angle_increment: float) -> int:
     """Beams of a full turn and one that repeats the first; the increment may have 32 bits."""
     return math.floor(math.tau / angle_increment * (1.0 + 1e-6)) + 1
-
-
-TIM561 = LidarSpec(
-    name="tim561",
-    beams=811,
-    angle_min=math.radians(-135.0),
-    angle_increment=math.radians(270.0 / 810.0),
-    sigma=0.02,
-    dropout=0.001,
-    source="SICK TiM561 data sheet: 270 degrees at 0.33 degrees, 15 Hz, 0.05 to 10 m, statistical "
-    "error 20 mm (1 sigma). Its systematic error of +-60 mm is systematic=0.06, off here. The "
-    "dropout is assumed: about one beam a sweep",
-)
-
-BARBRET = LidarSpec(
-    name="barbret",
-    beams=786,
-    angle_min=-2.356,
-    angle_increment=0.006,
-    sigma=0.03,
-    source="the TiM561 as Barbret 2021 rounds it: 270 degrees at 0.006 rad, sigma 30 mm",
-)
-
-LIDARS = {spec.name: spec for spec in (TIM561, BARBRET)}
-
-
-def lidar_spec(name_or_spec: str | LidarSpec) -> LidarSpec:
-    """The lidar with a name, or the specification itself.
-
-    Raises:
-        ValueError: no such lidar; lists those there are.
-    """
-    return by_name("lidar", name_or_spec, LidarSpec, LIDARS)

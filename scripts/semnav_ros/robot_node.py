@@ -10,7 +10,7 @@ from semnav_env.language import Command
 from semnav_env.mind.belief import Belief
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_features.frames import ORIGIN, FloatArray, Pose, Twist, compose, relative
-from semnav_features.lidar_spec import lidar_spec
+from semnav_features.lidars import lidar_spec
 from semnav_ros.command_drive import CommandDrive
 from semnav_ros.conversation import STOP, Conversation
 from semnav_ros.laser_frame import FixedFrames

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
 import re
 import subprocess
 import sys
 import time
+import tomllib
 from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 from packaging.requirements import Requirement
 from packaging.specifiers import SpecifierSet
@@ -71,6 +75,55 @@ def single_pygame() -> InstallationCheck:
         " and ".join(there) or "none installed",
         "they overwrite each other: pip uninstall pygame pygame-ce, then pip install pygame-ce",
     )
+
+
+def editable_install() -> InstallationCheck:
+    """Check that an editable install knows all packages of its checkout.
+
+    It remembers those that there were when it was installed: a package that a later `git pull`
+    brings cannot be imported.
+    """
+    installed = metadata.distribution(_PACKAGE)
+    told = json.loads(installed.read_text("direct_url.json") or "{}")
+    if not told.get("dir_info", {}).get("editable"):
+        return InstallationCheck("editable install", True, "this is none", needed=False)
+    checkout = Path(url2pathname(urlsplit(told["url"]).path))
+    texts = [
+        Path(str(installed.locate_file(file))).read_text("utf-8")
+        for file in installed.files or ()
+        if file.name.startswith("__editable__") and file.suffix in (".pth", ".py")
+    ]
+    missing = missing_packages(checkout, "\n".join(texts))
+    return InstallationCheck(
+        "editable install",
+        not missing,
+        f"does not know {', '.join(missing)}" if missing else f"knows all packages of {checkout}",
+        f"the checkout has changed since: pip install -e {checkout}",
+    )
+
+
+def missing_packages(checkout: Path, known: str) -> list[str]:
+    """Names of the packages of a checkout that an editable install does not know.
+
+    Args:
+        checkout: its folder.
+        known: text of the files in which pip keeps where the packages are: the folder of each, or
+            in lines of their own the folders in which they lie.
+    """
+    project = tomllib.loads((checkout / "pyproject.toml").read_text("utf-8"))
+    find = project["tool"]["setuptools"]["packages"]["find"]
+    folders = [
+        start.parent
+        for root in find["where"]
+        for pattern in find["include"]
+        for start in sorted((checkout / root).glob(f"{pattern}/__init__.py"))
+    ]
+    lines = known.splitlines()
+    return [
+        folder.name
+        for folder in folders
+        if repr(str(folder)) not in known and str(folder.parent) not in lines
+    ]
 
 
 def headless_drawing() -> InstallationCheck:

@@ -164,8 +164,10 @@ def _first_line(error: Exception) -> str:
         where = f" {os.fspath(error.filename)!r}" if error.filename else ""
         what = "write" if error.errno in _NO_ROOM else "open"
         return f"cannot {what}{where}: {error.strerror}"
-    if isinstance(error, ModuleNotFoundError) and not str(error.name).startswith("semnav_"):
-        return f"{error.name} is not installed; `semnav doctor` says what to install"
+    if isinstance(error, ModuleNotFoundError):
+        package, _, inner = str(error.name).partition(".")
+        if not (inner and package.startswith("semnav_")):
+            return f"{error.name} is not installed; `semnav doctor` says what to install"
     lines = str(error).strip().splitlines()
     return lines[0] if lines else type(error).__name__
 

@@ -71,6 +71,7 @@ def _warm() -> Iterator[InstallationCheck]:
 _ADVICE = "set SEMNAV_CACHE_DIR to a folder that you may write to, or reinstall semnav-env"
 
 _TRIALS: dict[str, Callable[[], list[InstallationCheck]]] = {
+    "editable install": lambda: [checks.editable_install()],
     "drawing without a display": lambda: [checks.headless_drawing()],
     "compiled kernels": checks.kernels,
 }

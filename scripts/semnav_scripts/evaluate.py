@@ -32,6 +32,7 @@ from semnav_agents.learned import agent_label
 from semnav_env.judge.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.rendering.backend import load_pygame
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
+from semnav_features.lidars import TIM561, lidar_spec
 from semnav_scripts.evaluation_tables import commands_table, headings, measures_table
 from semnav_scripts.jsonl import JsonLines
 from semnav_scripts.outputs import check_file, check_folder, counted
@@ -54,6 +55,7 @@ class Arguments:
         agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
             folder of a trained agent, or package.module:Class.
         robot: wheelchair or spot.
+        lidar: name of a lidar, such as rplidar_a1; docs/lidars.md lists them.
         seeds: number of start poses, each with its own noise, for every command of a suite; 20 if
             not given.
         first_seed: number of the first seed; 0 if not given.
@@ -72,6 +74,7 @@ class Arguments:
     suite: Positional[str] = "heidelberg"
     agent: str = "scripted"
     robot: str = "wheelchair"
+    lidar: str = "tim561"
     seeds: int | None = None
     first_seed: int | None = None
     episodes: int | None = None
@@ -93,6 +96,7 @@ class Arguments:
             raise ValueError(f"first_seed is {first}; it must be 0 or more")
         if self.episodes is not None and self.episodes < 1:
             raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
+        lidar_spec(self.lidar)  # says at once if there is none of that name
         check_file(self.out, "--out")
         check_folder(self.pictures, "--pictures")
         check_folder(self.films, "--films")
@@ -105,7 +109,7 @@ class Arguments:
         total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
         extras = Extras(self.recheck, self.pictures, self.films)
         workers = self.workers or min(os.cpu_count() or 1, -(-total // SHARE))
-        how = workers, extras, self.dynamics
+        how = workers, extras, self.dynamics, self.lidar
         who = self._who()
         results = self._drive(run_suite(trials, self.agent, self.robot, seeds, *how), total, who)
         groups = list(dict.fromkeys(trial.group for trial in trials))
@@ -117,11 +121,13 @@ class Arguments:
         return 0
 
     def _who(self) -> dict[str, Any]:
-        """Fields of every row: agent, split, body, version and rules."""
+        """Fields of every row: agent, split, body, version, rules, and what is not as usual."""
         who = agent_label(self.agent) | {"split": Path(self.suite).name, "robot": self.robot}
         usual, chosen = asdict(NO_DYNAMICS), asdict(self.dynamics)
         if moved := {name: value for name, value in chosen.items() if value != usual[name]}:
             who |= {"dynamics": moved}
+        if self.lidar != TIM561.name:
+            who |= {"lidar": self.lidar}
         return who | provenance().row()
 
     def _drive(self, episodes: Iterator[Result], total: int, who: dict[str, Any]) -> list[Result]:

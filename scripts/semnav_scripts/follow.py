@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
@@ -23,9 +25,12 @@ from semnav_features.readers import Geometry, LogCheck, LogRecord, TruncatedLogE
 from semnav_features.readers.log_check import PoseSource
 from semnav_scripts.arguments import parse_pose
 from semnav_scripts.ground import understood
-from semnav_scripts.outputs import check_file
+from semnav_scripts.outputs import check_distinct, check_file
 from semnav_scripts.printable import printable
 from semnav_scripts.progress import tracked
+from semnav_scripts.recording.mcap_file import mcap_writer
+from semnav_scripts.recording.moment import MomentWriter, moment_of
+from semnav_scripts.recording.rerun_file import rerun_writer
 from semnav_scripts.scene_report import bad_text, print_notes
 
 
@@ -53,6 +58,8 @@ class Arguments:
         limit: stop after this number of scans.
         geometry: values of the scans that the log does not contain.
         plot: picture of the memory at the end (.png, .pdf or .svg).
+        rerun: recording for the viewer of Rerun to write (.rrd).
+        mcap: recording for Foxglove to write (.mcap).
         settings: limits of the extractor, metres and radians.
         json: print one JSON object a line.
     """
@@ -67,6 +74,8 @@ class Arguments:
     limit: int | None = None
     geometry: OmitArgPrefixes[Geometry] = field(default_factory=Geometry)
     plot: Path | None = None
+    rerun: Path | None = None
+    mcap: Path | None = None
     settings: ExtractorSettings = field(default_factory=ExtractorSettings)
     json: bool = False
 
@@ -77,7 +86,10 @@ class Arguments:
             value = getattr(self, name)
             if value is not None and value < 1:
                 raise ValueError(f"--{name} is {value}; it must be at least 1")
-        check_file(self.plot, "--plot")
+        outputs = {"--plot": self.plot, "--rerun": self.rerun, "--mcap": self.mcap}
+        check_distinct({"the log": self.log, **outputs})
+        for option, path in outputs.items():
+            check_file(path, option)
         if self.plot is not None:
             check_suffix(self.plot)
         matcher = ScanOdometry()
@@ -89,8 +101,9 @@ class Arguments:
             from semnav_env.rendering.belief_picture import save_beliefs
 
             save_beliefs(self.plot, beliefs, len(command.clauses), str(command))
-            if not self.json:
-                print(f"wrote {self.plot}")
+        for path in outputs.values():
+            if path is not None and not self.json:
+                print(f"wrote {path}")
         if damage:
             raise damage
         if loss := loss_of(matcher, len(beliefs)):
@@ -103,7 +116,7 @@ class Arguments:
         """Print each change of the belief; returns all beliefs and the error of a truncated log."""
         beliefs: list[Belief] = []
         damage: TruncatedLogError | None = None
-        with open_log(self.log, self.geometry, self.topic) as log:
+        with self._writers() as writers, open_log(self.log, self.geometry, self.topic) as log:
             stop = None if self.limit is None else self.first - 1 + self.limit
             check = LogCheck(log.unit, _WATCHED[self.poses])
             records = check.watched(islice(log, self.first - 1, stop))
@@ -115,6 +128,8 @@ class Arguments:
                 ):
                     if not beliefs or _mind(belief) != _mind(beliefs[-1]):
                         print(self._line(record, belief, command))
+                    for writer in writers:
+                        writer.write(moment_of(record, belief, command, mount, len(beliefs)))
                     beliefs.append(belief)
             except TruncatedLogError as error:
                 damage = error
@@ -124,6 +139,17 @@ class Arguments:
         if not beliefs:
             raise damage or ValueError(f"{self.log} has no scan {self.first}")
         return beliefs, damage
+
+    @contextmanager
+    def _writers(self) -> Iterator[list[MomentWriter]]:
+        """The writers of the recordings that are wanted."""
+        with ExitStack() as open_files:
+            writers: list[MomentWriter] = []
+            if self.rerun is not None:
+                writers.append(open_files.enter_context(rerun_writer(self.rerun)))
+            if self.mcap is not None:
+                writers.append(open_files.enter_context(mcap_writer(self.mcap)))
+            yield writers
 
     def _line(self, record: LogRecord, belief: Belief, command: Command) -> str:
         clauses = command.clauses

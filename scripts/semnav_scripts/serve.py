@@ -15,8 +15,9 @@ EVERYWHERE = ("", "0.0.0.0", "::")
 SHUTDOWN_SECONDS = 3
 """How long visitors have to leave when the server ends, seconds."""
 
-MAX_BYTES = 65536
-"""Size of a message at which a connection is closed unread, bytes; smaller ones are answered."""
+MAX_BYTES = 5_000_000
+"""Size of a message at which a connection is closed unread, bytes; smaller ones are answered. A
+dropped file may have 4,000,000."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +66,7 @@ class Arguments:
                 page_app(self.sessions, LOCAL_NAMES | {self.host}),
                 log_level="warning",
                 ws_max_size=MAX_BYTES,
-                ws_max_queue=4,
+                ws_max_queue=2,
                 server_header=False,
                 timeout_graceful_shutdown=SHUTDOWN_SECONDS,
             )

@@ -11,7 +11,7 @@ import numpy as np
 from semnav_env.bench.timing import Part, seconds_per_call
 from semnav_features.frames import ORIGIN, FloatArray, Pose, points_to_local
 from semnav_features.kernels.compiling import kernel
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 
 YARDSTICK_SEGMENTS, YARDSTICK_SCANS = 208, 20
 """Wall segments of the yardstick, whatever the floor plan, and scans of it in a timing."""

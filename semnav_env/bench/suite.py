@@ -15,7 +15,8 @@ from semnav_env.bench.timing import Timing, timings
 from semnav_env.bench.vector import training_part, vector_part
 from semnav_env.env import SemNavEnv
 from semnav_env.world.maps import FloorPlan
-from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import TIM561
 
 COPIES, BEAMS, ROBOTS = (1, 2, 10, 29), (201, 405, 811, 1621), (1, 8, 64, 256)
 """Sizes at which growth is timed: copies of the plan, beams of the lidar, robots."""

@@ -25,7 +25,7 @@ from semnav_env.world.maps.importers.gaps import places_beside
 from semnav_env.world.maps.importers.labels import DOORS_FILE, read_door_labels
 from semnav_features import ExtractorSettings, Scan, extract
 from semnav_features.frames import Point, Pose
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 from semnav_features.scene import Door, Scene
 from studies.buildings.plan_openings import openings_of
 from studies.doors.door_sightings import DoorCounts, Gate, View, judge, matches

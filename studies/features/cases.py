@@ -13,7 +13,8 @@ from shapely.geometry.base import BaseGeometry
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import Pose
-from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import TIM561
 from semnav_features.scan import Scan
 from semnav_features.scene import Scene
 from studies.features.clutter import cluttered, free_floor

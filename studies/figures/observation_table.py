@@ -15,7 +15,7 @@ from semnav_env.mind.observations.layout import (
     command_space,
     scan_space,
 )
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 from studies.figures import IMAGES
 
 PAGE = IMAGES.parent / "observations.md"

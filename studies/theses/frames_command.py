@@ -19,7 +19,7 @@ from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_env.world.maps.floor_plan import Surface
 from semnav_features import Scan, extract
 from semnav_features.frames import ORIGIN, Pose
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 from semnav_features.scene import Door, Scene
 from studies.doors.door_sightings import matches
 from studies.features.barbret_chain import barbret_scene

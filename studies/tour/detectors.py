@@ -18,7 +18,7 @@ from semnav_features.clouds.mes import MesDetector
 from semnav_features.clouds.point_cloud import PointCloud
 from semnav_features.elements import Door
 from semnav_features.frames import FloatArray
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 from studies.tour.villa import villa
 
 DoorSearch = Callable[[Door, float], DetectedDoor | None]

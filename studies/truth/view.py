@@ -9,7 +9,8 @@ import numpy as np
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import FloatArray, Pose, compose, points_to_local
-from semnav_features.lidar_spec import LidarSpec, lidar_spec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import lidar_spec
 from semnav_features.scan import Scan
 from semnav_features.scene import Arc, Scene, Wall
 from semnav_features.settings import ExtractorSettings

@@ -21,7 +21,7 @@ from semnav_env.world.dynamics import Dynamics
 from semnav_env.world.dynamics.settings import Walking
 from semnav_env.world.simulator import OdometrySettings
 from semnav_features import ExtractorSettings
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 from tests.support.episodes import START, actions, digest, rollout
 
 ID = "semnav_env:SemNav-v0"

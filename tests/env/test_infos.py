@@ -13,7 +13,8 @@ from semnav_agents.oracle import OracleAgent
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.tasks import RandomisedRobot
 from semnav_env.robots import SPOT, RobotSpec
-from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import TIM561
 
 MAX_PICKLED_BYTES = 2000
 """Largest size of an `info` as it is sent, bytes."""

@@ -17,7 +17,7 @@ from semnav_env.world.maps import FloorPlan, Surface, load_floor_plan
 from semnav_env.world.maps.importers import load_vector_map
 from semnav_features import Scan
 from semnav_features.frames import compose, relative
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 from semnav_features.mapping import MatchError, MatchSettings, match_scans
 from semnav_features.mapping.matching import without_place
 from semnav_features.readers import open_log

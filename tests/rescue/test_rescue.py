@@ -24,7 +24,7 @@ from semnav_env.robots import SPOT
 from semnav_env.world.dynamics import Dynamics, PlanSource
 from semnav_env.world.dynamics.victims import VICTIM_SPACING, victims_of
 from semnav_env.world.maps import FloorPlan, Material, Surface, generate_office
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 
 SURE = PersonDetectorSettings(
     hit_near=1.0, hit_far=1.0, look_alikes=0.0, clutter=0.0, range_std=0.0, bearing_std=0.0

@@ -97,3 +97,58 @@ def test_warming_says_how_long_each_group_and_all_of_them_took(
         "no space left",
     )
     assert " s, 4 processes on " in told["kernels, in all"]["detail"]
+
+
+PROJECT = """[tool.setuptools.packages.find]
+where = [".", "scripts"]
+include = ["semnav_*"]
+"""
+
+
+@pytest.fixture
+def checkout(tmp_path: Path) -> Path:
+    """A project with a package in each of two roots."""
+    (tmp_path / "pyproject.toml").write_text(PROJECT)
+    for folder in ("semnav_env", "scripts/semnav_ros"):
+        (tmp_path / folder).mkdir(parents=True)
+        (tmp_path / folder / "__init__.py").touch()
+    return tmp_path
+
+
+def test_a_package_that_came_after_an_editable_install_is_missed(checkout: Path) -> None:
+    mapping = {"semnav_env": str(checkout / "semnav_env")}
+    assert checks.missing_packages(checkout, f"MAPPING = {mapping!r}") == ["semnav_ros"]
+    assert checks.missing_packages(checkout, f"{checkout}\n") == ["semnav_ros"]
+
+
+def test_an_editable_install_that_knows_every_package_lacks_none(checkout: Path) -> None:
+    folders = [checkout / "semnav_env", checkout / "scripts" / "semnav_ros"]
+    mapping = {folder.name: str(folder) for folder in folders}
+    assert checks.missing_packages(checkout, f"MAPPING = {mapping!r}") == []
+    assert checks.missing_packages(checkout, f"{checkout}\n{checkout / 'scripts'}\n") == []
+
+
+def test_the_doctor_reads_the_files_of_an_editable_install(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stale = checkout / "__editable__.semnav_env.pth"
+    stale.write_text(f"{checkout}\n")
+    monkeypatch.setattr(checks.metadata, "distribution", lambda _: Installed(checkout, stale))
+    check = checks.editable_install()
+    assert (check.ok, check.needed) == (False, True)
+    assert check.detail == "does not know semnav_ros"
+    assert check.fix.endswith(f"pip install -e {checkout}")
+
+
+class Installed:
+    """An editable install of a checkout, as `importlib.metadata` shows it."""
+
+    def __init__(self, checkout: Path, *files: Path) -> None:
+        self.checkout, self.files = checkout, files
+
+    def read_text(self, name: str) -> str:
+        assert name == "direct_url.json"
+        return json.dumps({"url": self.checkout.as_uri(), "dir_info": {"editable": True}})
+
+    def locate_file(self, file: Path) -> Path:
+        return file

@@ -8,7 +8,6 @@ import re
 import signal
 import subprocess
 import sys
-from contextlib import contextmanager
 from subprocess import PIPE
 
 import pytest
@@ -21,57 +20,22 @@ from tests.support.paths import ROOT, source
 
 pytest.importorskip("starlette", reason='needs pip install "semnav-env[serve]"')
 pytest.importorskip("httpx2", reason="the test client of Starlette needs httpx2")
-TestClient = pytest.importorskip("starlette.testclient").TestClient
 WebSocketDisconnect = pytest.importorskip("starlette.websockets").WebSocketDisconnect
 
-HOME = "http://127.0.0.1:8321"
-SESSION = "ws://127.0.0.1:8321/session"
-SCENE = {"type": "scene", "pose": [-2.5, -0.6, 0.25]}
-SECOND_DOOR = {"type": "command", "text": "go through the second door on the right"}
+from tests.support.page_visitor import (  # noqa: E402
+    HOME,
+    SCENE,
+    SECOND_DOOR,
+    in_the_hallway,
+    opened_page,
+    visitor,
+)
 
 
 @pytest.fixture
 def client():
-    from semnav_scripts.page.app import page_app
-
-    with TestClient(page_app(sessions=2), base_url=HOME) as opened:
+    with opened_page(sessions=2) as opened:
         yield opened
-
-
-class Visitor:
-    """A visitor of the page, whose messages come until one of some type does."""
-
-    def __init__(self, socket):
-        self.socket = socket
-
-    def send(self, **message):
-        self.socket.send_text(json.dumps(message))
-
-    def next(self, *kinds):
-        """The next message of one of these types; other good news before it are skipped."""
-        while True:
-            message = json.loads(self.socket.receive_text())
-            if message["type"] in kinds:
-                return message
-            assert message["type"] not in ("error", "refused"), message
-
-
-@contextmanager
-def visitor(client, **headers):
-    with client.websocket_connect(
-        f"{HOME.replace('http', 'ws')}/session", headers=headers
-    ) as socket:
-        yield Visitor(socket)
-
-
-@contextmanager
-def in_the_hallway(client):
-    """A visitor whose robot stands in the hallway and hurries."""
-    with visitor(client) as one:
-        one.send(**SCENE)
-        one.next("scene")
-        one.send(type="speed", factor=16)
-        yield one
 
 
 def test_the_page_is_served_with_a_policy_that_loads_nothing_from_elsewhere(client):
@@ -139,7 +103,22 @@ def test_a_foreign_host_is_refused(client, host):
         ('{"type": "door", "door": "nowhere", "shut": true}', "door is 'nowhere'"),
         ('{"type": "playback", "action": "step"}', "nothing drives"),
         ('{"type": "answer", "text": "left"}', "nothing was asked"),
-        ('{"type": "film"}', "no film yet"),
+        ('{"type": "keep", "what": "film"}', "no film yet"),
+        ('{"type": "keep", "what": "episode"}', "no episode yet"),
+        ('{"type": "keep", "what": "shadow"}', "what is 'shadow'"),
+        ('{"type": "scene", "plan": "own"}', "drop a file"),
+        ('{"type": "draw", "tool": "sword"}', "tool is 'sword'"),
+        ('{"type": "draw", "tool": "door", "points": [[0, 0]]}', "two places for door"),
+        ('{"type": "draw", "tool": "room", "points": [[0, 0], [1, 1]]}', "one place for room"),
+        ('{"type": "draw", "tool": "scale", "points": [[0, 0], [1, 1]], "length": 0}', "length"),
+        (
+            '{"type": "draw", "tool": "door", "points": [[0, 0], [9, 9]], "name": "%s"}'
+            % ("x" * 81),
+            "at most 80",
+        ),
+        ('{"type": "draw", "tool": "undo"}', "nothing is left to undo"),
+        ('{"type": "draw", "tool": "redo"}', "nothing was undone"),
+        ('{"type": "draw", "tool": "erase", "points": [[99, 99]]}', "neither a door nor a region"),
     ],
 )
 def test_what_is_wrong_with_a_message_is_answered_and_the_session_goes_on(client, message, why):
@@ -156,10 +135,13 @@ def test_what_is_wrong_with_a_message_is_answered_and_the_session_goes_on(client
         assert one.next("scene", "error")["type"] == "scene"
 
 
-def test_binary_messages_are_answered_with_an_error(client):
+@pytest.mark.parametrize(
+    "head", [b"", b"\0\1", b"{}", b'{"name": ""}', b'{"name": 7}', b"[" * 9999]
+)
+def test_a_binary_message_without_the_name_of_a_file_is_answered_with_an_error(client, head):
     with visitor(client) as one:
-        one.socket.send_bytes(b"\0\1")
-        assert "binary" in one.next("error")["text"]
+        one.socket.send_bytes(head + b"\n{}")
+        assert "name" in one.next("error")["text"]
 
 
 def test_a_command_without_a_scene_is_answered_with_an_error(client):
@@ -287,10 +269,10 @@ def test_the_film_of_a_run_is_a_gif(client):
     with in_the_hallway(client) as one:
         one.send(**SECOND_DOOR)
         one.next("ended")
-        one.send(type="film")
-        while "bytes" not in (message := one.socket.receive()) or message["bytes"] is None:
-            pass
-    assert message["bytes"].startswith(b"GIF89a")
+        one.send(type="keep", what="film")
+        name, content = one.next_file()
+    assert name == "semnav.gif"
+    assert content.startswith(b"GIF89a")
 
 
 def test_the_same_scene_and_command_give_the_same_run(client):

@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from semnav_scripts.page.listening import listening
+from tests.support.asked import asked_about
+from tests.support.page_visitor import WALLS
 
 uvicorn = pytest.importorskip("uvicorn", reason='needs pip install "semnav-env[serve]"')
 playwright = pytest.importorskip("playwright.sync_api", reason="no Playwright: make browser")
@@ -111,11 +113,12 @@ def test_it_works_by_the_keyboard_alone(page):
 
 
 def test_a_question_has_its_answers_as_buttons(page):
-    say(page, "turn 90 degrees")
-    expect(page.locator("#heard .question")).to_have_text("Left, or right?")
-    expect(page.locator("#heard button")).to_have_text(["left", "right"])
-    page.click("#heard button >> text=right")
-    expect(page.locator("#clauses li")).to_have_text(["turn right by 90 degrees"])
+    text, question = asked_about()
+    say(page, text)
+    expect(page.locator("#heard .question")).to_have_text(question.text)
+    expect(page.locator("#heard button")).to_have_text([each.name for each in question.choices])
+    page.click("#heard button >> nth=1")
+    expect(page.locator("#clauses li").last).to_have_text(str(question.readings[1].clauses[-1]))
 
 
 def test_what_is_not_understood_is_underlined(page):
@@ -260,17 +263,199 @@ CONTRASTS = """() => {
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing_serious(browser, address, scheme):
-    """Deque's checker of accessibility, before and after a question."""
+    """Deque's checker of accessibility: the scene, a question, and the drawing board."""
     axe = pytest.importorskip("axe_playwright_python", reason="no axe: make browser")
     page = browser.new_page(color_scheme=scheme)
     visit(page, address)
-    for text in ("", "turn 90 degrees"):
-        if text:
-            say(page, text)
-            expect(page.locator("#heard button")).to_have_text(["left", "right"])
+    for state in ("scene", "question", "board"):
+        if state == "question":
+            say(page, asked_about()[0])
+            expect(page.locator("#heard button")).to_have_count(2)
+        if state == "board":
+            page.click("#open-board")
+            expect(page.locator("#draw")).to_be_visible()
         page.evaluate((Path(axe.__file__).parent / "axe.min.js").read_text("utf-8"))
         found = page.evaluate("axe.run()")
         assert len(found["passes"]) > 10
         serious = [v for v in found["violations"] if v["impact"] in ("serious", "critical")]
         assert [(each["id"], [n["html"] for n in each["nodes"]]) for each in serious] == []
+    page.close()
+
+
+def test_a_run_is_looked_at_again(page):
+    hurry(page)
+    say(page, COMMAND)
+    expect(page.locator("#replay")).to_be_hidden()
+    expect_verdict(page, "Done.")
+    end = page.inner_text("#clock")
+    page.click("#back")
+    expect(page.locator("#clock")).not_to_have_text(end)
+    page.fill("#moment", "0")
+    expect(page.locator("#back")).to_be_disabled()
+    expect(page.locator("#clauses li")).to_have_class("active")
+    page.click("#play")
+    expect(page.locator("#play")).to_have_text("Halt")
+    expect(page.locator("#clock")).to_have_text(end)
+    expect(page.locator("#play")).to_have_text("Replay")
+    expect(page.locator("#clauses li")).to_have_class("done")
+
+
+def test_a_paused_run_that_is_looked_at_goes_on_at_its_end(page):
+    say(page, COMMAND)
+    expect(page.locator("#clock")).not_to_have_text("")
+    page.wait_for_timeout(500)
+    page.click("#pause")
+    page.fill("#moment", "0")
+    before = page.inner_text("#clock")
+    hurry(page)
+    page.click("#pause")
+    expect(page.locator("#clock")).not_to_have_text(before)
+    expect_verdict(page, "Done.")
+
+
+def test_episode_and_floor_plan_are_downloaded(page):
+    expect(page.locator("#episode")).to_be_disabled()
+    say(page, COMMAND)
+    expect(page.locator("#episode")).to_be_enabled()
+    for button, name, begin in (
+        ("#episode", "episode.jsonl", b'{"id":"page-00000"'),
+        ("#plan-copy", "heidelberg_hallway.geojson", b'{"type": "FeatureCollection"'),
+    ):
+        with page.expect_download() as download:
+            page.click(button)
+        assert download.value.suggested_filename == name
+        assert Path(download.value.path()).read_bytes().startswith(begin)
+
+
+HEARS = """window.SpeechRecognition = window.webkitSpeechRecognition = class {
+  start() {
+    const words = [{ transcript: " go through the second door on the right" }];
+    const said = Object.assign(words, { isFinal: true });
+    setTimeout(() => {
+      window.lang = this.lang;
+      if (window.deaf) this.onerror({ error: "not-allowed" });
+      else this.onresult({ results: [said] });
+      this.onend();
+    }, 50);
+  }
+}"""
+HEARS_NOT = "window.SpeechRecognition = window.webkitSpeechRecognition = undefined"
+
+
+def test_a_spoken_command_is_driven(browser, address):
+    page = browser.new_page()
+    page.add_init_script(HEARS)
+    visit(page, address)
+    page.select_option("#language", "en")
+    page.evaluate("window.deaf = true")
+    page.click("#speak")
+    expect_verdict(page, "may not use the microphone")
+    page.evaluate("window.deaf = false")
+    page.click("#speak")
+    expect(page.locator("#clauses li")).to_have_text([COMMAND])
+    assert page.evaluate("window.lang") == "en-US"
+    page.close()
+
+
+def test_without_speech_recognition_there_is_no_button_for_it(browser, address):
+    page = browser.new_page()
+    page.add_init_script(HEARS_NOT)
+    visit(page, address)
+    expect(page.locator("#speak")).to_be_hidden()
+    page.close()
+
+
+def test_a_dropped_file_that_is_no_floor_plan_is_told(page):
+    files = [{"name": "notes.txt", "mimeType": "text/plain", "buffer": b"hello"}]
+    page.set_input_files("#plan-file", files)
+    expect_verdict(page, "notes.txt:")
+    drop(page, "bad.geojson", "{")
+    expect_verdict(page, "bad.geojson: not JSON")
+
+
+def drop(page, name, text):
+    """Drop a file on the page, as from another window."""
+    data = page.evaluate_handle(
+        "([name, text]) => { const data = new DataTransfer();"
+        " data.items.add(new File([text], name)); return data; }",
+        [name, text],
+    )
+    page.dispatch_event("#canvas", "drop", {"dataTransfer": data})
+
+
+def draw(page, tool, *points, name=""):
+    """Draw by the pointer, from place to place of the plan of `WALLS`, metres."""
+    page.check(f"input[value={tool}]")
+    if name:
+        page.fill("#part-name", name)
+    box = page.locator("#canvas").bounding_box()
+    scale = min((box["width"] - 32) / 10, (box["height"] - 32) / 7)  # with 1 m around the walls
+    for k, (x, y) in enumerate(points):
+        page.mouse.move(
+            box["x"] + box["width"] / 2 + (x - 4.0) * scale,
+            box["y"] + box["height"] / 2 - (y - 2.5) * scale,
+        )
+        if k == 0:
+            page.mouse.down()
+    page.mouse.up()
+
+
+def test_a_map_is_drawn_on_saved_and_driven_in(page):
+    drop(page, "walls.csv", WALLS)
+    expect(page.locator("#draw")).to_be_visible()
+    draw(page, "door", (3.1, 2.05), (3.9, 1.95), name="office")
+    expect(page.locator("#board-said")).to_contain_text("1 doors")
+    draw(page, "corridor", (0.6, 1.0), (7.4, 1.0))
+    expect(page.locator("#board-said")).to_contain_text("1 corridors")
+    draw(page, "room", (5.0, 4.0))
+    expect(page.locator("#board-said")).to_contain_text("Type the name of the room first.")
+    draw(page, "room", (5.0, 4.0), name="library")
+    expect(page.locator("#board-said")).to_contain_text("1 rooms")
+    page.click("#undo")
+    expect(page.locator("#board-said")).to_contain_text("0 rooms")
+    page.click("#redo")
+    expect(page.locator("#board-said")).to_contain_text("1 rooms")
+    page.click("#check")
+    expect(page.locator("#board-said")).to_have_text("Nothing is wrong with it.")
+    with page.expect_download() as download:
+        page.click("#board-copy")
+    assert download.value.suggested_filename == "plan.geojson"
+    page.click("#drive-here")
+    expect(page.locator("#draw")).to_be_hidden()
+    expect(page.locator("#plan")).to_have_value("own")
+    hurry(page)
+    say(page, "go to the library")
+    expect_verdict(page, "Done.")
+
+
+def test_faults_are_listed_and_a_known_length_sets_the_scale(page):
+    drop(page, "walls.csv", WALLS)
+    draw(page, "corridor", (0.6, 1.0), (7.4, 1.0))
+    expect(page.locator("#board-said")).to_contain_text("1 corridors")
+    page.check("input[value=scale]")
+    page.fill("#known-length", "16")
+    draw(page, "scale", (0.0, 0.0), (8.0, 0.0))
+    expect(page.locator("#undo")).to_be_enabled()
+    page.click("#check")
+    expect(page.locator("#board-said")).to_contain_text("wrong")
+    page.click("#close-board")
+    expect(page.locator("#talk")).to_be_visible()
+
+
+def test_a_door_is_drawn_by_the_keyboard_alone(page):
+    page.click("#open-board")
+    expect(page.locator("#draw")).to_be_visible()
+    page.check("input[value=wall]")
+    page.focus("#canvas")
+    for key in ("ArrowRight", "Enter", "Shift+ArrowUp", "Alt+ArrowUp", "Enter"):
+        page.keyboard.press(key)
+    expect(page.locator("#undo")).to_be_enabled()
+
+
+def test_the_board_fits_a_phone(browser, address):
+    page = browser.new_page(viewport=PHONE)
+    visit(page, address)
+    page.click("#open-board")
+    expect(page.locator("#draw")).to_be_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
     page.close()

@@ -12,7 +12,8 @@ from shapely import Point, union_all
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps import Material, PlanDoor, Surface, bundled_names, load_floor_plan
 from semnav_features import CornerKind, extract
-from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import TIM561
 from studies.doors.door_sightings import Gate, View, matches
 from studies.features.cases import draw_cases
 from studies.features.overlap import Overlap

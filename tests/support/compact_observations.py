@@ -6,7 +6,7 @@ from semnav_agents.learning.compact import CompactObserver
 from semnav_env.mind.observations import GOAL
 from semnav_env.mind.observations.layout import BUMP_ROWS
 from semnav_env.robots import ROBOTS
-from semnav_features.lidar_spec import lidar_spec
+from semnav_features.lidars import lidar_spec
 
 LIDAR = lidar_spec("tim561")
 

@@ -15,7 +15,7 @@ from semnav_env.mind.observations import EntryObservation, PaceEntry
 from semnav_env.rescue import PersonSearch
 from semnav_env.vector import SemNavVectorEnv
 from semnav_env.vector.observations import EntryRows
-from semnav_features.lidar_spec import TIM561
+from semnav_features.lidars import TIM561
 
 COARSE = replace(TIM561, name="coarse", beams=271, angle_increment=3.0 * TIM561.angle_increment)
 AHEAD = np.full((2, 2), 0.3, np.float32)

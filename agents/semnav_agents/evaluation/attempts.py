@@ -93,6 +93,9 @@ def _attempt(line: str, place: str) -> Attempt:
     if row.get("dynamics"):
         with_what = f"was driven with {shown(row['dynamics'])}"
         raise ValueError(f"{place}: {with_what}; the table is of drives where nothing else moves")
+    if row.get("lidar"):
+        with_what = f"was driven with the lidar {shown(row['lidar'])}"
+        raise ValueError(f"{place}: {with_what}; the table is of drives with the usual one")
     row = _completed(row)
     values: dict[str, Any] = {}
     for each in fields(Attempt):

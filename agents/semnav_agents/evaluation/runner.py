@@ -31,6 +31,7 @@ from semnav_env.world.maps import FloorPlan
 from semnav_env.world.maps.placement import MAX_DRAWS, has_room, placement_error
 from semnav_features.frames import Pose
 from semnav_features.interruption import for_this_process_alone
+from semnav_features.lidar_spec import LidarSpec
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,7 @@ class SuiteSetup:
     robot: str | RobotSpec
     extras: Extras = NO_EXTRAS
     dynamics: Dynamics = NO_DYNAMICS
+    lidar: str | LidarSpec = "tim561"
 
 
 def run_suite(
@@ -83,6 +85,7 @@ def run_suite(
     workers: int = 1,
     extras: Extras = NO_EXTRAS,
     dynamics: Dynamics = NO_DYNAMICS,
+    lidar: str | LidarSpec = "tim561",
 ) -> Iterator[Result]:
     """The result of every trial with every seed, in their order.
 
@@ -95,12 +98,13 @@ def run_suite(
         workers: processes; results do not depend on it.
         extras: what else to do with each episode.
         dynamics: people, doors and furniture that move.
+        lidar: a lidar or its name.
 
     Raises:
         ValueError: there is no such agent, or with several workers one that other processes
             cannot import.
     """
-    setup = SuiteSetup(agent, robot, extras, dynamics)
+    setup = SuiteSetup(agent, robot, extras, dynamics, lidar)
     jobs = [
         SuiteJob(trial, seed)
         for trial in trials
@@ -194,6 +198,7 @@ class SuiteRunner:
                 robots,
                 robot=self._setup.robot,
                 observation=team.observation,
+                lidar=self._setup.lidar,
                 dynamics=self._setup.dynamics,
                 max_seconds=max_seconds,
                 threads=1,
@@ -208,6 +213,7 @@ class SuiteRunner:
         env = SemNavEnv(
             self._setup.robot,
             observation=agent.observation,
+            lidar=self._setup.lidar,
             dynamics=self._setup.dynamics,
             max_seconds=job.max_seconds,
             render_mode="rgb_array",

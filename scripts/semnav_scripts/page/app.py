@@ -15,9 +15,19 @@ from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from semnav_env.world.maps import bundled_names
+from semnav_scripts.page.drawing_board import SUFFIXES
 from semnav_scripts.page.guard import LOCAL_NAMES, OwnOriginOnly
 from semnav_scripts.page.outbox import Outbox
-from semnav_scripts.page.requests import AGENTS, MAX_BOXES, MAX_TEXT, OFFICES, read_request
+from semnav_scripts.page.requests import (
+    AGENTS,
+    MAX_BOXES,
+    MAX_FILE,
+    MAX_NAME,
+    MAX_TEXT,
+    OFFICES,
+    read_file,
+    read_request,
+)
 from semnav_scripts.page.session import PageSession
 
 FILES = Path(__file__).with_name("web")
@@ -100,9 +110,7 @@ async def _listen(websocket: WebSocket, session: PageSession, outbox: Outbox) ->
             return
         try:
             text = message.get("text")
-            if text is None:
-                raise ValueError("the message is binary; it must be text")
-            request = read_request(text)
+            request = read_file(message["bytes"]) if text is None else read_request(text)
         except ValueError as error:
             outbox.put_news(_error(str(error)))
             continue
@@ -130,6 +138,9 @@ def _choices() -> dict[str, Any]:
         "robots": ["wheelchair", "spot"],
         "most_boxes": MAX_BOXES,
         "longest_text": MAX_TEXT,
+        "longest_name": MAX_NAME,
+        "largest_file": MAX_FILE,
+        "files": list(SUFFIXES),
     }
 
 

@@ -23,7 +23,7 @@ from semnav_features.frames import Point, Pose
 from semnav_features.validation import require
 from semnav_scripts.page.frame_message import frame_message
 from semnav_scripts.page.plan_message import body_message, plan_message
-from semnav_scripts.page.requests import SceneRequest
+from semnav_scripts.page.requests import OWN, SceneRequest
 
 BOX_SIDE = 0.5
 """Length of a side of a box, metres."""
@@ -40,25 +40,29 @@ class PageDrive:
 
     Args:
         scene: what to build.
+        own_plan: the floor plan that the scene means by "own"; None if there is none.
 
     Raises:
         ValueError: there is no such floor plan, or robot or people find no room in it.
 
     Attributes:
+        floor_plan: the plan with its boxes, before leaves are hung into its doors.
         env: the environment.
         start: pose at which every command begins, world frame.
         suggestion: a command that can be carried out from there.
         info: the last `info` of the environment.
+        said: text, language and meaning of the last command; None before the first.
         over: whether the run has ended, or none has begun.
         frames: of the film of the run.
     """
 
-    def __init__(self, scene: SceneRequest) -> None:
+    def __init__(self, scene: SceneRequest, own_plan: FloorPlan | None = None) -> None:
         self.scene = scene
         self._agent = make_agent(scene.agent)
+        self.floor_plan = _with_boxes(_plan_of(scene, own_plan), scene.boxes)
         self.env = SemNavEnv(
             scene.robot,
-            _with_boxes(load_floor_plan(scene.plan), scene.boxes),
+            self.floor_plan,
             observation=self._agent.observation,
             dynamics=Dynamics(
                 pedestrians=scene.people, changing_doors=BY_HAND_ONLY if scene.leaves else 0.0
@@ -68,15 +72,17 @@ class PageDrive:
         _, self.info = self.env.reset(seed=scene.seed, options=options)
         self.start: Pose = self.info["pose"]
         self.suggestion: str = self.info["command"]
+        self.said: tuple[str, str, Command] | None = None
         self.over, self.frames = True, list[Frame]()
         self._trail: list[Point] = []
         self._seen: Frame | None = None
 
-    def begin(self, command: Command, language: str) -> None:
+    def begin(self, text: str, command: Command, language: str) -> None:
         """Begin the run of a command at the start of the scene.
 
         Args:
-            command: to carry out.
+            text: what was said.
+            command: what it means.
             language: of the speaker, "en" or "de".
 
         Raises:
@@ -88,6 +94,7 @@ class PageDrive:
         if isinstance(self._agent, PlanReader):
             self._agent.read_plan(self.env.floor_plan)
         self._agent.reset(self.info)
+        self.said = text, language, command
         self.over, self._steps, self._trail = False, 0, [self.start[:2]]
         self._seen = None
         self.frames = [self._snapshot()]
@@ -151,6 +158,20 @@ class PageDrive:
             "start": [round(value, 3) for value in self.start],
             "suggestion": self.suggestion,
         }
+
+
+def _plan_of(scene: SceneRequest, own_plan: FloorPlan | None) -> FloorPlan:
+    """The floor plan of a scene, without boxes.
+
+    Raises:
+        ValueError: there is none, or none in which a robot could start.
+    """
+    plan = own_plan if scene.plan == OWN else load_floor_plan(scene.plan)
+    if plan is None:
+        raise ValueError("there is no floor plan of yours; drop a file, or draw on another plan")
+    if not plan.corridors:
+        raise ValueError(f"{plan.name} has no corridor, where a robot could start; draw one")
+    return plan
 
 
 def _with_boxes(plan: FloorPlan, places: tuple[Point, ...]) -> FloorPlan:

@@ -8,13 +8,23 @@ from typing import Annotated, Any, TypeAlias
 
 from semnav_env.world.maps import bundled_names
 from semnav_features.checked_fields import Bounds, OneOf, check_fields
+from semnav_features.frames import Point
 from semnav_features.validation import clipped, require
 
 MAX_REQUEST = 4096
 """Size of the largest request, characters."""
 
+MAX_FILE = 4_000_000
+"""Size of the largest file that is taken, bytes."""
+
 MAX_TEXT = 500
 """Length of the longest command, characters."""
+
+MAX_NAME = 80
+"""Length of the longest name of a file, a door or a room, characters."""
+
+OWN = "own"
+"""The floor plan on the visitor's drawing board."""
 
 MAX_BOXES = 8
 """The most boxes that can be put into a scene."""
@@ -34,7 +44,8 @@ class SceneRequest:
     """Begin anew with a floor plan, a body and an agent.
 
     Attributes:
-        plan: a bundled floor plan, or "office:medium:17"; never a path.
+        plan: a bundled floor plan, "office:medium:17", or "own": that of the drawing board; never
+            a path.
         robot: wheelchair or spot.
         agent: one of `AGENTS`.
         seed: of everything that is random.
@@ -55,8 +66,9 @@ class SceneRequest:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        known = self.plan in bundled_names() or self.plan.split(":")[0] == "office"
-        names = ", ".join(bundled_names())
+        listed = (*bundled_names(), OWN)
+        known = self.plan in listed or self.plan.split(":")[0] == "office"
+        names = ", ".join(listed)
         require(known, "plan", self.plan, f"one of {names}, or such as office:medium:17")
         require(len(self.boxes) <= MAX_BOXES, "boxes", self.boxes, f"at most {MAX_BOXES}")
 
@@ -131,8 +143,71 @@ class DoorRequest:
 
 
 @dataclass(frozen=True)
-class FilmRequest:
-    """Make a GIF of the run so far."""
+class KeepRequest:
+    """Make a file to keep.
+
+    Attributes:
+        what: the film of the run, its command as an episode, the floor plan of the scene, or that
+            of the drawing board.
+    """
+
+    what: Annotated[str, OneOf(("film", "episode", "plan", "board"))]
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+@dataclass(frozen=True)
+class DrawRequest:
+    """Draw on the floor plan, or take a step back.
+
+    Attributes:
+        tool: what is drawn: "open" takes the plan of the scene, if there is none yet, and "check"
+            searches for faults.
+        points: places on the plan: both ends of a line, or one place in a room.
+        name: of what is drawn.
+        length: the true length of a line, metres, for "scale".
+    """
+
+    tool: Annotated[
+        str,
+        OneOf(
+            ("open", "door", "wall", "room", "corridor", "scale", "erase", "undo", "redo", "check")
+        ),
+    ]
+    points: tuple[Place, ...] = ()
+    name: str = ""
+    length: Annotated[float, Bounds(0.01, 1000.0, "m")] | None = None
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        require(len(self.name) <= MAX_NAME, "name", self.name, f"at most {MAX_NAME} characters")
+
+    @property
+    def place(self) -> Point:
+        """The place that was pointed out."""
+        require(len(self.points) == 1, "points", self.points, f"one place for {self.tool}")
+        return self.points[0]
+
+    @property
+    def line(self) -> tuple[Point, Point]:
+        """Both ends of the line that was drawn."""
+        require(len(self.points) == 2, "points", self.points, f"two places for {self.tool}")
+        start, end = self.points
+        return start, end
+
+
+@dataclass(frozen=True)
+class FileRequest:
+    """Put a floor plan from a file onto the drawing board.
+
+    Attributes:
+        name: of the file.
+        content: of the file.
+    """
+
+    name: str
+    content: bytes = b""
 
 
 PageRequest: TypeAlias = (
@@ -142,7 +217,9 @@ PageRequest: TypeAlias = (
     | PlaybackRequest
     | SpeedRequest
     | DoorRequest
-    | FilmRequest
+    | KeepRequest
+    | DrawRequest
+    | FileRequest
 )
 
 KINDS: dict[str, type[PageRequest]] = {
@@ -152,9 +229,27 @@ KINDS: dict[str, type[PageRequest]] = {
     "playback": PlaybackRequest,
     "speed": SpeedRequest,
     "door": DoorRequest,
-    "film": FilmRequest,
+    "keep": KeepRequest,
+    "draw": DrawRequest,
 }
 """Requests by the value of their key "type"."""
+
+
+def read_file(message: bytes) -> FileRequest:
+    """The file that a binary message brings: a line with its name in JSON, then its content.
+
+    Raises:
+        ValueError: it is something else, or too large; says in one line what would be right.
+    """
+    head, _, content = message.partition(b"\n")
+    try:
+        name = json.loads(head[:MAX_REQUEST])["name"]
+    except (ValueError, RecursionError, TypeError, KeyError):
+        raise ValueError('a binary message begins with a line {"name": "plan.geojson"}') from None
+    if not isinstance(name, str) or not 0 < len(name) <= MAX_NAME or not name.isprintable():
+        raise ValueError(f"the file's name is {clipped(repr(name))}; give a short one")
+    require(len(content) <= MAX_FILE, name, f"{len(content)} bytes", f"at most {MAX_FILE}")
+    return FileRequest(name, content)
 
 
 def read_request(text: str) -> PageRequest:

@@ -15,14 +15,18 @@ from typing import Any
 from semnav_env.language import Command, Stop
 from semnav_env.world.dynamics.social import for_json
 from semnav_features.validation import clipped
+from semnav_scripts.page.drawing_board import DrawingBoard
 from semnav_scripts.page.drive import PageDrive
-from semnav_scripts.page.film import gif
+from semnav_scripts.page.kept_files import kept_file, plan_file
 from semnav_scripts.page.outbox import ClientTooSlowError, Outbox
 from semnav_scripts.page.requests import (
+    OWN,
     AnswerRequest,
     CommandRequest,
     DoorRequest,
-    FilmRequest,
+    DrawRequest,
+    FileRequest,
+    KeepRequest,
     PageRequest,
     PlaybackRequest,
     SceneRequest,
@@ -60,17 +64,23 @@ class PageSession(threading.Thread):
         super().__init__(name="semnav page session", daemon=True)
         self._outbox = outbox
         self._waiting: queue.Queue[PageRequest | None] = queue.Queue(MAX_WAITING)
-        self._ended = threading.Event()
+        self._ended, self._file_waits = threading.Event(), threading.Event()
         self._drive: PageDrive | None = None
+        self._board: DrawingBoard | None = None
         self._asked: Asked | None = None
         self._paused, self._speed, self._due, self._shown = False, 1.0, 0.0, 0.0
 
     def ask(self, request: PageRequest) -> bool:
-        """Let a request wait; False if too many wait already."""
+        """Let a request wait; False if too many wait already, or another file does."""
+        is_file = isinstance(request, FileRequest)
+        if is_file and self._file_waits.is_set():
+            return False
         try:
             self._waiting.put_nowait(request)
         except queue.Full:
             return False
+        if is_file:
+            self._file_waits.set()
         return True
 
     def end(self) -> None:
@@ -115,7 +125,8 @@ class PageSession(threading.Thread):
     def _do(self, request: PageRequest) -> None:
         match request:
             case SceneRequest():
-                self._drive, self._asked = PageDrive(request), None
+                own = None if self._board is None else self._board.plan
+                self._drive, self._asked = PageDrive(request, own), None
                 self._tell(self._drive.scene_message())
                 self._show()
                 gc.collect()  # the world before is a cycle of large arrays
@@ -132,9 +143,25 @@ class PageSession(threading.Thread):
                 self._speed = factor
             case DoorRequest(door=door, shut=shut):
                 self._scene().shut(door, shut)
-            case FilmRequest():
-                drive = self._scene()
-                self._outbox.put_news(gif(drive.frames, drive.control_hz))
+            case KeepRequest(what="board"):
+                self._outbox.put_news(plan_file(self._opened_board().plan))
+            case KeepRequest(what=what):
+                self._outbox.put_news(kept_file(what, self._scene()))
+            case FileRequest(name=name, content=content):
+                self._file_waits.clear()
+                self._board = DrawingBoard.from_file(name, content)
+                self._tell(self._board.message())
+            case DrawRequest():
+                board = self._opened_board(anew=request.tool == "open")
+                board.draw(request)
+                self._tell(board.message(checked=request.tool == "check"))
+
+    def _opened_board(self, anew: bool = False) -> DrawingBoard:
+        """The drawing board; at first, and to begin anew, it has the plan of the scene."""
+        is_of_scene = self._drive is not None and self._drive.scene.plan == OWN
+        if self._board is None or (anew and not is_of_scene):
+            self._board = DrawingBoard(self._scene().floor_plan)
+        return self._board
 
     def _scene(self) -> PageDrive:
         if self._drive is None:
@@ -152,7 +179,7 @@ class PageSession(threading.Thread):
             self._play("stop")
             return
         try:
-            drive.begin(heard.command, heard.language.code)
+            drive.begin(heard.text, heard.command, heard.language.code)
         except ValueError as error:
             self._tell(Refused(heard.text, str(error)).message)
             return

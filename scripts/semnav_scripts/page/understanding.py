@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from semnav_env.language import AmbiguousCommandError, Command, CommandError, Question, parse
@@ -101,7 +101,11 @@ def understand_answer(asked: Asked, answer: str) -> Understood | Asked | Refused
     """What a text means, given an answer to the question about it."""
     code = asked.question.language.code
     found = _outcome(answer, code, lambda: asked.question.answer(answer))
-    return Refused(asked.text, found.why) if isinstance(found, Refused) else found
+    if isinstance(found, Refused):
+        return Refused(asked.text, found.why)
+    if isinstance(found, Understood):  # the answer alone would mean nothing
+        return replace(found, text=found.command.say(found.language))
+    return found
 
 
 def _outcome(

@@ -22,7 +22,7 @@ def warm_up() -> None:
     for text in COMMANDS:
         heard = understand(text, None, drive.env.floor_plan.room_names)
         if isinstance(heard, Understood):
-            drive.begin(heard.command, heard.language.code)
+            drive.begin(heard.text, heard.command, heard.language.code)
     for _ in range(STEPS):
         drive.step()
         drive.frame()

@@ -14,7 +14,8 @@ from semnav_env.judge.tasks.request import EpisodeRequest
 from semnav_env.judge.tasks.task import AdaptiveTask, Task, as_task
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_env.world.simulator.odometry import OdometrySettings
-from semnav_features.lidar_spec import LidarSpec, lidar_spec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import lidar_spec
 
 _T = TypeVar("_T")
 

@@ -39,7 +39,8 @@ from semnav_env.rules import Rules, with_doors_of
 from semnav_features import ExtractorSettings
 from semnav_features.frames import MOST_CONTACTS, Contact, FloatArray, Pose, Twist
 from semnav_features.kernels.scratch import FEATURES, Features, features_of, scratch_array
-from semnav_features.lidar_spec import LidarSpec, lidar_spec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import lidar_spec
 from semnav_features.memory import SceneMemory
 from semnav_features.one_thread import ThreadDoor, for_one_thread
 from semnav_features.scene import Scene

@@ -14,7 +14,8 @@ from semnav_env.world.lidar.raster import cast
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_features.frames import ORIGIN, FloatArray, Pose, compose
 from semnav_features.kernels.compiling import kernel
-from semnav_features.lidar_spec import CosinesSines, LidarSpec, lidar_spec
+from semnav_features.lidar_spec import CosinesSines, LidarSpec
+from semnav_features.lidars import lidar_spec
 
 if TYPE_CHECKING:
     from semnav_features.scan import Scan

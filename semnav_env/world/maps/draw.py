@@ -10,6 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure, FigureBase
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
+from matplotlib.patheffects import Normal, Stroke
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox, ScaledTranslation
 from shapely import Polygon, union_all
@@ -47,6 +48,9 @@ REGION_TINTS = {
 
 LONGEST_SIDE = 12.0
 """Longest side of a picture, inches."""
+HALO = (Stroke(linewidth=2.0, foreground="white"), Normal())
+"""Drawn around names, so that they can be read on walls."""
+
 NAME_OFFSET = 0.3
 """Distance from a door to its name, metres."""
 
@@ -163,7 +167,16 @@ def _name_region(region: Region, plan: FloorPlan, ax: Axes) -> None:
     own = region.polygon.difference(others)
     at = (region.polygon if own.area < DRAWING_TOLERANCE else own).representative_point()
     style = "italic" if region.assumed else "normal"
-    ax.text(at.x, at.y, region.name, size=7, style=style, color="dimgrey", ha="center")
+    ax.text(
+        at.x,
+        at.y,
+        region.name,
+        size=7,
+        style=style,
+        color="dimgrey",
+        ha="center",
+        path_effects=HALO,
+    )
 
 
 def _draw_surface(surface: Surface, ax: Axes) -> None:
@@ -185,7 +198,17 @@ def _name_door(door: PlanDoor, ax: Axes) -> None:
     right = (y2 - y1) / door.width, (x1 - x2) / door.width
     x, y = (m + NAME_OFFSET * r for m, r in zip(door.midpoint, right, strict=True))
     side = "center" if abs(right[0]) < 0.7 else "left" if right[0] > 0 else "right"
-    ax.text(x, y, door.name, size=7, weight="bold", color=_colour(door), ha=side, va="center")
+    ax.text(
+        x,
+        y,
+        door.name,
+        size=7,
+        weight="bold",
+        color=_colour(door),
+        ha=side,
+        va="center",
+        path_effects=HALO,
+    )
 
 
 def _colour(door: PlanDoor) -> str:

@@ -24,7 +24,8 @@ from semnav_env.world.simulator.sensing import (
 )
 from semnav_features.checked_fields import check_fields
 from semnav_features.frames import Pose, Twist
-from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import TIM561
 from semnav_features.one_thread import ThreadDoor, for_one_thread
 
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ from semnav_env.robots import ROBOTS
 from semnav_env.world.maps.floor_plan import FloorPlan, Material, Surface
 from semnav_env.world.physics import World
 from semnav_features.frames import MOST_CONTACTS, Contact, Pose, points_to_parent, to_parent
-from semnav_features.lidar_spec import lidar_spec
+from semnav_features.lidars import lidar_spec
 from semnav_features.scene import Door, Scene
 from tests.support.small_plans import closed, plan_of
 

@@ -9,7 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from semnav_env.world.lidar import BARBRET, LIDARS, TIM561, Lidar, LidarSpec, lidar_spec
+from semnav_features import extract
 from semnav_features.frames import Pose, compose
+from tests.support.command_line import run
+from tests.support.paths import ROOT
 from tests.support.small_plans import empty_hall, furnished_hall
 
 KEY = (1, 2, 3)
@@ -124,3 +127,27 @@ def test_any_number_of_beams_up_to_a_full_turn_is_scanned() -> None:
         step = min(math.tau / max(beams - 1, 1), 3.0)
         spec = LidarSpec("any", beams, -math.pi, step)
         assert np.isfinite(Lidar(empty_hall(), spec).ranges((5.0, 3.0, 0.1), KEY)).all()
+
+
+def test_the_page_of_lidars_has_a_row_for_each_with_its_numbers():
+    page = (ROOT / "docs" / "lidars.md").read_text("utf-8")
+    for spec in LIDARS.values():
+        (row,) = [line for line in page.splitlines() if line.startswith(f"| `{spec.name}`")]
+        cells = [cell.strip() for cell in row.strip("|").split("|")]
+        assert cells[2] == str(spec.beams)
+        assert cells[4] == f"{spec.range_min:g} to {spec.range_max:g}"
+        assert cells[5:7] == [f"{spec.rate_hz:g}", f"{1000 * spec.sigma:g}"]
+
+
+@pytest.mark.parametrize("spec", LIDARS.values(), ids=list(LIDARS))
+def test_every_lidar_says_where_its_numbers_come_from_and_sees_the_walls_of_a_hall(spec):
+    assert spec.source
+    scan = Lidar(empty_hall(6.0, 4.0), spec).scan((3.0, 2.0, 0.1), KEY)
+    assert len(scan.ranges) == spec.beams
+    assert len(extract(scan).walls) >= 3
+
+
+def test_a_lidar_of_no_known_name_is_refused_with_the_names_that_there_are(capsys):
+    code, _, said = run(capsys, "evaluate", "val_unseen", "--episodes", "1", "--lidar", "tim999")
+    assert (code, said.count("\n")) == (2, 1)
+    assert "rplidar_a1" in said

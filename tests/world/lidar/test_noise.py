@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from semnav_env.world.lidar.noise import corrupt
 from semnav_features.frames import FloatArray
-from semnav_features.lidar_spec import TIM561, LidarSpec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import TIM561
 
 WIDE = LidarSpec("wide", 1, 0.0, 0.1, range_min=0.0, range_max=1e6)
 KEY = (11, 22, 33)

@@ -14,7 +14,8 @@ from semnav_env.world.lidar.culling import CELL_SIZE, MAX_CULLING_CELLS, Culling
 from semnav_env.world.lidar.raster import cast
 from semnav_env.world.maps import FloorPlan, bundled_names, load_floor_plan
 from semnav_features.frames import FloatArray, Pose
-from semnav_features.lidar_spec import BARBRET, TIM561, LidarSpec
+from semnav_features.lidar_spec import LidarSpec
+from semnav_features.lidars import BARBRET, TIM561
 from tests.support.small_plans import closed, empty_hall, furnished_hall, plan_of
 
 AROUND = LidarSpec("around", 360, -math.pi, math.tau / 360)

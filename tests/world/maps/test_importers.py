@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,7 @@ from PIL import Image
 
 from semnav_env.world.lidar import Lidar
 from semnav_env.world.maps import Material, load_floor_plan, save_floor_plan
+from semnav_env.world.maps.check import check
 from semnav_env.world.maps.importers import (
     OccupancyMap,
     OccupancySpec,
@@ -196,11 +198,23 @@ def test_the_command_imports_a_map_and_reports(tmp_path, capsys):
     said = capsys.readouterr().out
     assert f"wrote {out}" in said
     assert "left out: door 'nowhere'" in said
-    assert said.endswith(f"\n`semnav map check {out}` says what is still wrong with it\n")
+    last = said.splitlines()[-1]
+    assert last.startswith(f"next: `semnav serve`, and drop {out} there")
     assert len(load_floor_plan(out).doors) == 2
     assert picture.stat().st_size > 0
     assert cli.main([*words, "--json", "--tracing.mend", "0"]) == 0
-    assert json.loads(capsys.readouterr().out)["taken"]["open doors"] == 1
+    reported = json.loads(capsys.readouterr().out)
+    assert reported["taken"]["open doors"] == 1
+    assert (tmp_path / "out" / "plan_plan.png").stat().st_size > 0
+
+
+def test_the_command_says_what_is_wrong_with_the_imported_plan(tmp_path, capsys):
+    walls = tmp_path / "walls.csv"
+    walls.write_text("0,0,8,0\n8,0,8,2\n8,2,0,2\n0,2,0,0\n")
+    out = tmp_path / "plan.geojson"
+    assert cli.main(["map", "import", str(walls), "--out", str(out), "--json"]) == 0
+    faults = json.loads(capsys.readouterr().out)["faults"]
+    assert faults == [asdict(fault) for fault in check(load_floor_plan(out))]
 
 
 def test_a_doorway_between_two_places_needs_no_label(tmp_path):

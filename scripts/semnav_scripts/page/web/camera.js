@@ -12,10 +12,10 @@ export class Camera {
     this.scale = 1;
   }
 
-  /** Show a plan of these bounds from now on. */
-  show(bounds) {
+  /** Show a plan of these bounds from now on; the whole of it, or as much as can be read. */
+  show(bounds, whole = false) {
     this.bounds = bounds;
-    this.zoom = Math.max(1, LEAST_SCALE / this.wholeScale);
+    this.zoom = whole ? 1 : Math.max(1, LEAST_SCALE / this.wholeScale);
   }
 
   get wholeScale() {
@@ -29,6 +29,11 @@ export class Camera {
     this.scale = this.wholeScale * this.zoom;
     const [west, south, east, north] = this.bounds;
     this.centre = [within(x, west, east, this.size[0] / this.scale), within(y, south, north, this.size[1] / this.scale)];
+  }
+
+  /** Move the view so that a place that was at `from` comes to `to`. */
+  drag([x1, y1], [x2, y2]) {
+    this.centre = [this.centre[0] + x1 - x2, this.centre[1] + y1 - y2];
   }
 
   x(x) { return this.size[0] / 2 + (x - this.centre[0]) * this.scale; }

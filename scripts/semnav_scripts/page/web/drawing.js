@@ -5,9 +5,38 @@ const LABEL_FONT = "11px system-ui, sans-serif";
 let paint; // the canvas' 2D context
 let view; // the camera
 let colour; // of a name in style.css
+let written = []; // boxes of the names that are written: none is written over another
 
 /** Draw everything. `scene` and `moment` are messages of the server; `extra` is what the page adds. */
 export function draw(context, camera, scene, moment, extra) {
+  begin(context, camera);
+  drawFloor(scene.plan);
+  if (moment) drawScan(moment);
+  drawSolids(scene.plan);
+  drawRoomNames(scene.plan.rooms);
+  if (moment) drawMoment(moment, scene, extra.trail);
+  else drawBody(scene.body, scene.start);
+  if (extra.placing) drawBody(scene.body, extra.placing);
+  if (extra.cross) drawCross(extra.cross);
+  drawScale();
+}
+
+/** Draw a floor plan that is drawn on: all its names, its faults, and the line that is begun. */
+export function drawBoard(context, camera, plan, faults, { line: begun, cross }) {
+  begin(context, camera);
+  drawFloor(plan);
+  drawSolids(plan);
+  for (const door of plan.doors) line(door.ends, door.open ? "door" : "hit", 4);
+  for (const room of plan.rooms) write(room.name, ...room.at, "ink");
+  for (const door of plan.doors) drawDoorName(door);
+  for (const corridor of plan.corridors) write(corridor.name, ...corridor.at, "name");
+  faults.forEach(({ at }, index) => { if (at) drawFault(index + 1, ...at); });
+  if (begun) drawBegun(begun);
+  if (cross) drawCross(cross);
+  drawScale();
+}
+
+function begin(context, camera) {
   paint = context;
   view = camera;
   const style = getComputedStyle(document.documentElement);
@@ -15,15 +44,7 @@ export function draw(context, camera, scene, moment, extra) {
   paint.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
   paint.clearRect(0, 0, ...camera.size);
   paint.lineCap = paint.lineJoin = "round";
-  drawFloor(scene.plan);
-  if (moment) drawScan(moment);
-  drawSolids(scene.plan);
-  drawNames(scene.plan.rooms);
-  if (moment) drawMoment(moment, scene, extra.trail);
-  else drawBody(scene.body, scene.start);
-  if (extra.placing) drawBody(scene.body, extra.placing);
-  if (extra.cross) drawCross(extra.cross);
-  drawScale();
+  written = [];
 }
 
 function drawFloor(plan) {
@@ -33,14 +54,59 @@ function drawFloor(plan) {
 }
 
 /** The names of the rooms that are wide enough for them. */
-function drawNames(rooms) {
+function drawRoomNames(rooms) {
   for (const { name, points, at } of rooms) {
-    const words = name.replaceAll("_", " ");
     const xs = points.map(([x]) => x);
     paint.font = LABEL_FONT;
     const wide = (Math.max(...xs) - Math.min(...xs)) * view.scale;
-    if (paint.measureText(words).width < wide - 8) label(words, view.x(at[0]), view.y(at[1]), "name", "room");
+    if (paint.measureText(spaced(name)).width < wide - 8) write(name, ...at, "name", "room");
   }
+}
+
+/** The name of a door behind it, as seen from its corridor. */
+function drawDoorName({ name, ends: [[x1, y1], [x2, y2]] }) {
+  const length = Math.hypot(x2 - x1, y2 - y1) || 1;
+  const [right, down] = [(y2 - y1) / length, (x2 - x1) / length]; // in pixels, from the corridor
+  paint.font = LABEL_FONT;
+  const half = paint.measureText(spaced(name)).width / 2;
+  const away = 10 + half * Math.abs(right);
+  writeAt(spaced(name), view.x((x1 + x2) / 2) + away * right, view.y((y1 + y2) / 2) + away * down, "door");
+}
+
+/** Write a name at a place in metres, unless it would lie on another one. */
+function write(name, x, y, colourName, halo) {
+  writeAt(spaced(name), view.x(x), view.y(y), colourName, halo);
+}
+
+/** The same at a place in pixels; a name that lies on another moves by a line, or is left out. */
+function writeAt(words, x, y, colourName, halo) {
+  paint.font = LABEL_FONT;
+  const half = paint.measureText(words).width / 2 + 2;
+  for (const shift of [0, 13, -13]) {
+    const box = [x - half, y + shift - 7, x + half, y + shift + 7];
+    if (written.some((other) => overlap(box, other))) continue;
+    written.push(box);
+    return label(words, x, y + shift, colourName, halo);
+  }
+}
+
+function overlap(a, b) { return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]; }
+function spaced(name) { return name.replaceAll("_", " "); }
+
+function drawFault(number, x, y) {
+  paint.beginPath();
+  paint.arc(view.x(x), view.y(y), 9, 0, 7);
+  paint.fillStyle = colour("halo");
+  paint.fill();
+  stroke("bad", 2);
+  text(String(number), view.x(x), view.y(y), "bad", "bold 11px system-ui, sans-serif");
+}
+
+function drawBegun([from, to]) {
+  line([from, to], "halo", 6);
+  line([from, to], "goal", 3);
+  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+  label(`${length.toFixed(2)} m`, view.x((from[0] + to[0]) / 2), view.y((from[1] + to[1]) / 2) - 12, "goal");
 }
 
 function drawSolids(plan) {

@@ -6,12 +6,14 @@ export function connect(heed) {
   const socket = new WebSocket(`${scheme}://${location.host}/session`);
   socket.binaryType = "blob";
   socket.onmessage = ({ data }) => {
-    if (data instanceof Blob) return heed.film(data);
+    if (data instanceof Blob) return heed.file(data);
     const message = JSON.parse(data);
     heed[message.type](message);
   };
   socket.onclose = () => heed.closed();
-  return (type, values = {}) => {
-    if (socket.readyState === WebSocket.OPEN) socket.send(JSON.stringify({ type, ...values }));
+  const isOpen = () => socket.readyState === WebSocket.OPEN;
+  return {
+    send(type, values = {}) { if (isOpen()) socket.send(JSON.stringify({ type, ...values })); },
+    sendFile(blob) { if (isOpen()) socket.send(blob); },
   };
 }

@@ -1,11 +1,15 @@
 // The page: sends what the visitor wants, shows what the server says.
 
 import { readAddress, writeAddress } from "./address.js";
+import { board, boardGesture, drawOnBoard, openBoard, sayOnBoard, showBoard, watchBoard } from "./board.js";
 import { Camera } from "./camera.js";
-import { draw } from "./drawing.js";
-import { hand, tool, watch } from "./hand.js";
+import { draw, drawBoard } from "./drawing.js";
+import { message as fileMessage, onDrop, save } from "./files.js";
+import { hand, headingTo, letGo, watch } from "./hand.js";
 import { connect } from "./link.js";
-import { offer, onChange, readScene, showScene } from "./scene_form.js";
+import * as replay from "./replay_bar.js";
+import { offer, offerOwn, onChange, readScene, showScene } from "./scene_form.js";
+import { listenBy } from "./speech.js";
 import * as talk from "./talk.js";
 
 const FIRST = { pose: [-2.5, -0.6, 0.25] }; // of a visitor whose address names no scene
@@ -15,28 +19,37 @@ const byId = (id) => document.getElementById(id);
 const canvas = byId("canvas");
 const camera = new Camera();
 let scene = null; // the last message "scene"
-let moment = null; // the last message "frame" of a run
-let trail = [];
+let moment = null; // the message "frame" that is shown
+let trail = []; // poses of the run, of which the moment that is shown has seen `reach`
+let reach = 0;
 let run = "none"; // or "driving", "paused", "over"
 let pending = 0; // scenes that were asked for and are not there yet
 let afterScene = null; // a command to give as soon as the scene is there
 let shut = new Set(); // doors shut by hand
 let settled = 0; // clauses that a screen reader was told of
 let due = false;
+let largestFile = 0; // bytes
 
-const send = connect({
+const { send, sendFile } = connect({
   choices(message) {
     offer(message);
     byId("command").maxLength = message.longest_text;
+    byId("part-name").maxLength = message.longest_name;
+    byId("plan-file").accept = message.files.join();
+    largestFile = message.largest_file;
     byId("connection").textContent = "";
     const asked = readAddress(location.search);
     byId("command").value = asked.command;
     byId("language").value = asked.language;
-    afterScene = asked.command || null;
-    askScene(location.search ? asked.scene : FIRST);
+    const isOwn = asked.scene.plan === "own";
+    afterScene = isOwn ? null : asked.command || null;
+    askScene(location.search && !isOwn ? asked.scene : FIRST);
+    if (isOwn) talk.say("The link does not hold your floor plan: drop its file here.", "failed");
   },
   scene(message) {
-    const moved = scene?.plan.name !== message.plan.name;
+    const moved = board.open || scene?.plan.name !== message.plan.name;
+    if (board.open) openBoard(false);
+    letGo();
     scene = message;
     begin("none");
     talk.clear();
@@ -58,32 +71,41 @@ const send = connect({
   refused(message) { talk.showRefusal(message); },
   asked(message) { talk.showQuestion(message, (text) => send("answer", { text })); },
   frame(message) {
-    moment = message;
     if (run === "none") return showStart(message);
     trail.push(message.pose);
-    talk.tick(message.verdicts);
+    replay.add(message, trail.length);
     narrate(message);
-    byId("reason").textContent = message.reasons.length ? `The robot: ${message.reasons.join("; ")}` : "";
-    byId("clock").textContent = `${message.seconds.toFixed(2)} s`;
-    redraw();
   },
   ended(message) {
     begin("over");
     talk.showEnd(message);
   },
-  film(blob) {
-    const link = Object.assign(document.createElement("a"), { href: URL.createObjectURL(blob), download: "semnav.gif" });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-    byId("film").disabled = false;
-    byId("kept").textContent = `GIF: ${Math.round(blob.size / 1024)} KB`;
+  board(message) {
+    const isNew = !board.open;
+    const bounds = String(board.plan?.bounds);
+    if (isNew) replay.halt();
+    if (isNew && run === "driving") send("playback", { action: "stop" });
+    showBoard(message);
+    offerOwn(board.plan.name);
+    if (isNew) openBoard(true);
+    if (isNew || String(board.plan.bounds) !== bounds) camera.show(board.plan.bounds, true);
+    if (isNew) camera.centre = middle(board.plan.bounds);
+    redraw();
+  },
+  async file(blob) {
+    const said = await save(blob);
+    byId(board.open ? "board-kept" : "kept").textContent = said;
+    byId("film").disabled = run === "none";
   },
   error({ text }) {
     byId("kept").textContent = "";
     byId("film").disabled = run === "none";
+    const asked = pending > 0;
+    if (asked) [pending, afterScene] = [0, null];
+    if (board.open) return sayOnBoard(text, "failed");
     talk.say(text, "failed");
-    if (pending) [pending, afterScene] = [0, null];
     if (scene) settle();
+    else if (asked) askScene(FIRST); // the address asked for something that there is not
   },
   closed() {
     byId("connection").textContent = "not connected: reload the page when the server is there";
@@ -94,12 +116,15 @@ const send = connect({
 /** Enter a state of the run: which buttons can be used follows from it. */
 function begin(state) {
   const fresh = state === "none" || (state === "driving" && run !== "paused");
-  if (fresh) [moment, trail, settled, shut] = [null, [], 0, new Set()];
+  if (fresh) [moment, trail, reach, settled, shut] = [null, [], 0, 0, new Set()];
+  if (fresh) replay.clear();
+  replay.halt();
   run = state;
   const drives = run === "driving" || run === "paused";
   for (const id of ["pause", "step", "stop"]) byId(id).disabled = !drives;
   byId("pause").textContent = run === "paused" ? "Go on" : "Pause";
-  byId("film").disabled = run === "none";
+  for (const id of ["film", "episode"]) byId(id).disabled = run === "none";
+  replay.show(run !== "driving");
   if (fresh) byId("clock").textContent = "";
   if (fresh) showDoors();
 }
@@ -107,6 +132,15 @@ function begin(state) {
 /** Show what the robot sees before it is told anything. */
 function showStart(message) {
   moment = { ...message, goal: null, doors: message.doors.map((door) => ({ ...door, number: null })) };
+  redraw();
+}
+
+/** Show a moment of the run. `seen` is the number of poses driven by then. */
+function present(shown, seen) {
+  [moment, reach] = [shown, seen];
+  talk.tick(moment.verdicts);
+  byId("reason").textContent = moment.reasons.length ? `The robot: ${moment.reasons.join("; ")}` : "";
+  byId("clock").textContent = `${moment.seconds.toFixed(2)} s`;
   redraw();
 }
 
@@ -151,13 +185,51 @@ function narrate({ verdicts }) {
   settled = done;
 }
 
-function act([x, y], heading) {
-  if (!scene) return;
+/** Do what a gesture on the plan means. */
+function act(points) {
+  if (board.open) drawOnBoard(points, send);
+  else if (scene) actInScene(points);
+}
+
+function actInScene([[x, y], second]) {
+  const heading = headingTo([x, y], second);
   const place = [Number(x.toFixed(2)), Number(y.toFixed(2))];
   if (tool() === "box") change({ boxes: [...scene.scene.boxes, place] });
   else if (tool() === "robot") change({ pose: [...place, Number((heading ?? scene.start[2]).toFixed(3))] });
   else swing(nearestDoor(x, y));
 }
+
+/** What a click in the scene does: "door", "box" or "robot". */
+function tool() {
+  return document.querySelector("input[name=tool]:checked").value;
+}
+
+/** What a gesture on the plan is for. */
+function gesture() {
+  if (board.open) return boardGesture();
+  return tool() === "robot" ? "turn" : "click";
+}
+
+/** Send a file of the visitor's to the drawing board. */
+function putOnBoard(file) {
+  if (!file) return;
+  const tell = board.open ? sayOnBoard : talk.say;
+  if (file.size > largestFile) return tell(`${file.name} has ${file.size} bytes; at most ${largestFile} are taken.`, "failed");
+  tell(`reading ${file.name} …`);
+  sendFile(fileMessage(file));
+}
+
+/** Leave the drawing board for the scene. */
+function leaveBoard() {
+  openBoard(false);
+  letGo();
+  talk.say("");
+  camera.show(scene.plan.bounds);
+  showScene(scene.scene);
+  redraw();
+}
+
+function middle([west, south, east, north]) { return [(west + east) / 2, (south + north) / 2]; }
 
 function nearestDoor(x, y) {
   const far = ({ ends: [[x1, y1], [x2, y2]] }) => Math.hypot((x1 + x2) / 2 - x, (y1 + y2) / 2 - y);
@@ -207,8 +279,13 @@ function redraw() {
   due = true;
   requestAnimationFrame(() => {
     due = false;
+    const context = canvas.getContext("2d");
+    if (board.open) {
+      camera.lookAt(hand.cross ?? camera.centre);
+      return drawBoard(context, camera, board.plan, board.faults, hand);
+    }
     camera.lookAt(hand.cross ?? moment?.pose ?? scene.start);
-    draw(canvas.getContext("2d"), camera, scene, moment, { trail, ...hand });
+    draw(context, camera, scene, moment, { trail: trail.slice(0, reach), ...hand });
   });
 }
 
@@ -219,10 +296,12 @@ byId("command-form").onsubmit = (event) => {
 };
 byId("suggestion").onclick = () => command(scene.suggestion);
 byId("pause").onclick = () => {
+  replay.toEnd();
   send("playback", { action: run === "driving" ? "pause" : "go on" });
   begin(run === "driving" ? "paused" : "driving");
 };
 byId("step").onclick = () => {
+  replay.toEnd();
   send("playback", { action: "step" });
   begin("paused");
 };
@@ -236,13 +315,33 @@ byId("clear-boxes").onclick = () => change({ boxes: [] });
 byId("film").onclick = () => {
   byId("film").disabled = true;
   byId("kept").textContent = "drawing the film …";
-  send("film");
+  send("keep", { what: "film" });
 };
+byId("episode").onclick = () => send("keep", { what: "episode" });
+byId("plan-copy").onclick = () => send("keep", { what: "plan" });
+byId("plan-file").onchange = () => {
+  putOnBoard(byId("plan-file").files[0]);
+  byId("plan-file").value = "";
+};
+onDrop(putOnBoard);
+byId("open-board").onclick = () => send("draw", { tool: "open" });
+byId("drive-here").onclick = () => {
+  byId("plan").value = "own";
+  byId("start").value = "";
+  change({ plan: "own", boxes: [], pose: null });
+};
+byId("close-board").onclick = leaveBoard;
+watchBoard(send);
+replay.watch(present, () => Number(byId("speed").value));
+listenBy(byId("speak"), () => byId("language").value, (text, isFinal) => {
+  byId("command").value = text;
+  if (isFinal && scene && text) command(text);
+}, (why) => talk.say(why, "failed"));
 byId("link").onclick = async () => {
   const address = remember();
   try {
     await navigator.clipboard.writeText(address);
-    byId("kept").textContent = "The link is copied.";
+    byId("kept").textContent = scene.scene.plan === "own" ? "The link is copied; your floor plan is not in it." : "The link is copied.";
   } catch {
     byId("kept").textContent = address;
   }
@@ -251,7 +350,7 @@ byId("nearer").onclick = () => zoom(1.3);
 byId("farther").onclick = () => zoom(1 / 1.3);
 byId("whole").onclick = () => zoom(0);
 onChange((id) => change(["plan", "office-number"].includes(id) ? { boxes: [], pose: null } : {}));
-watch(camera, () => moment?.pose ?? scene?.start ?? [0, 0, 0], act, zoom, redraw);
+watch(camera, () => (board.open ? [...camera.centre, 0] : moment?.pose ?? scene?.start ?? [0, 0, 0]), gesture, act, zoom, redraw);
 matchMedia("(prefers-color-scheme: dark)").onchange = redraw;
 new ResizeObserver(() => {
   const before = camera.wholeScale * camera.zoom;

@@ -22,6 +22,12 @@ export function offer({ plans, offices, robots, agents }) {
   fill(field("agent"), agents.map((name) => [name, ABOUT[name] ?? name]));
 }
 
+/** Let the visitor's own floor plan be chosen, too. */
+export function offerOwn(name) {
+  const own = field("plan").querySelector("option[value=own]") ?? field("plan").appendChild(new Option("", "own"));
+  own.textContent = `yours: ${name}`;
+}
+
 /** Show a scene in the form. */
 export function showScene(scene) {
   const office = scene.plan.match(/^(office:[a-z]+):(\d+)$/);
@@ -52,6 +58,7 @@ export function readScene() {
 export function onChange(use) {
   form.onsubmit = (event) => event.preventDefault();
   form.onchange = (event) => {
+    if (event.target.type === "file") return;
     if (["plan", "office-number"].includes(event.target.id)) field("start").value = "";
     use(event.target.id);
   };

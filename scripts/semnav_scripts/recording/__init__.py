@@ -1,0 +1,1 @@
+"""Recordings of a followed command for programs that show them: Rerun and Foxglove."""
