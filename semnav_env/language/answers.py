@@ -13,7 +13,7 @@ from semnav_env.language.language import Language
 from semnav_env.language.phrase_table import PhraseTable, Words, plain_words
 
 REJECTED = -1
-"""Stands for "no" to the only choice that was named."""
+"""Stands for "no" to what was named: the only choice, or both."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,10 @@ def choice_of(
     first, second = _votes(labels)
     if first != second:
         return 0 if first > second else 1
+    if "other" in labels and both_named:
+        return 1
     if "other" in labels or "no" in labels:
-        return 1 if both_named else REJECTED
+        return REJECTED
     if not both_named:
         return 0 if "yes" in labels else None
     if "first" in labels or "second" in labels:

@@ -100,7 +100,7 @@ class Question:
 
         Raises:
             AmbiguousCommandError: it is still open; the question is that of the error.
-            CommandError: no reading is meant: "no" to the only one.
+            CommandError: no reading is meant: "no" to the only one, or to both.
         """
         if is_stop(text):
             return Command((Stop(),))
@@ -111,7 +111,7 @@ class Question:
             return self._by_command(text)
         if choice != REJECTED:
             return self.readings[choice]
-        if len(self.readings) > 1:
+        if len(self.readings) > 1 and not self.names_both:
             raise AmbiguousCommandError(text, replace(self, readings=self.readings[1:]))
         raise CommandError(self.language.say("none_meant"), text)
 

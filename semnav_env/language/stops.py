@@ -16,8 +16,15 @@ URGENT = (
 )
 """Calls that are no part of a route: a text that begins or ends with one is a stop."""
 
-LONGEST_URGENT = 2
-"""The most words of an urgent call."""
+CANCELLING = (
+    "never mind|nevermind|forget it|forget that|cancel that|cancel it|cancel|abort|"
+    "vergiss es|vergiss das|vergessen sie es|vergessen sie das|abbrechen|abbruch|"
+    "no stop|no halt|no stopp|nope stop|nein stop|nein stopp|nein halt"
+)
+"""What takes back all that was said before it: a text that ends with it is a stop."""
+
+LONGEST_END = 3
+"""The most words of an urgent call, and of what cancels."""
 
 CALLS = (
     "stop|stop it|stop now|stop here|stop moving|stop right now|stop at once|stop immediately|halt|"
@@ -40,24 +47,34 @@ _BREAK = re.compile(r"[,;:.!?\n\u2013\u2014\u2026]+")
 
 
 _TABLE = PhraseTable(
-    {"call": CALLS.split("|"), "urgent": URGENT.split("|"), "beside": BESIDE.split("|")}
+    {
+        "call": CALLS.split("|"),
+        "urgent": URGENT.split("|"),
+        "cancel": CANCELLING.split("|"),
+        "beside": BESIDE.split("|"),
+    }
 )
+
+_DENIALS = {("no",), ("nope",), ("nein",)}
+"""What belongs to the call behind it: "no, stop"."""
 
 
 def is_stop(text: str) -> bool:
     """Whether a text is a call to stop, however the rest of it reads.
 
-    It is one if it says nothing else, or begins or ends with an urgent call.
+    It is one if it says nothing else, begins or ends with an urgent call, or is cancelled at its
+    end.
     """
     parts = _parts(text)
     if not parts:
         return False
-    said_last, last = parts[-1], len(parts[-1])
-    ends = (said_last[at:] for at in range(max(0, last - LONGEST_URGENT), last))
+    before = parts[-2] if len(parts) > 1 and parts[-2] in _DENIALS else ()
+    said_last = (*before, *parts[-1])
+    ends = (said_last[at:] for at in range(max(0, len(said_last) - LONGEST_END), len(said_last)))
     return (
         (all(map(_is_said_beside, parts)) and any(map(_is_call, parts)))
-        or _is_urgent(parts[0])
-        or any(_is_urgent(end) and _is_call(end) for end in ends)
+        or _begins_with(parts[0]) == "urgent"
+        or any(_begins_with(end) in ("urgent", "cancel") and _is_call(end) for end in ends)
     )
 
 
@@ -86,7 +103,7 @@ def _is_said_beside(words: Words) -> bool:
     return _TABLE.labels(words) is not None
 
 
-def _is_urgent(words: Words) -> bool:
-    """Whether words begin with an urgent call."""
+def _begins_with(words: Words) -> object:
+    """The kind of the phrase with which words begin; None if it is none of the table."""
     found = _TABLE.longest(words, 0)
-    return found is not None and found[1] == "urgent"
+    return found and found[1]

@@ -48,7 +48,7 @@ ANSWERS = [
     (BACK, "en", "Back to the start, or around and down the hallway?", {0: ["the former"]}),
     (
         *(BACK, "en", "Back to the start, or around and down the hallway?"),
-        {1: ["turn around", "around", "no", "turn around and go down the hallway"]},
+        {1: ["turn around", "around", "turn around and go down the hallway"]},
     ),
     (ALONE, "en", "Through the first door?", {0: ["yes", "yes please", "ok", "the first door"]}),
     (ALONE, "de", "Durch die erste Tür?", {0: ["ja", "genau", "ja, durch die erste Tür"]}),
@@ -100,7 +100,13 @@ def test_no_to_the_only_reading_is_no_command() -> None:
         of_readings("de", *ALONE).answer("nein")
 
 
-@pytest.mark.parametrize("text", ["stop", "Stopp!", "no, stop"])
+@pytest.mark.parametrize("text", ["no", "neither", "none", "nope"])
+def test_no_to_both_choices_is_no_command(text: str) -> None:
+    with pytest.raises(CommandError, match="in other words"):
+        of_readings("en", *SIDES).answer(text)
+
+
+@pytest.mark.parametrize("text", ["stop", "Stopp!", "no, stop", "never mind", "vergiss es"])
 def test_stop_is_an_answer_to_every_question(text: str) -> None:
     assert of_readings("en", *SIDES).answer(text) == Command((Stop(),))
 

@@ -36,6 +36,23 @@ def test_an_urgent_call_at_either_end_is_a_stop_whatever_else_is_said(
 @pytest.mark.parametrize(
     "text",
     [
+        *("go to the kitchen, forget it", "turn right, cancel that", "left, no, stop"),
+        *("through the second door, never mind", "fahr ins Labor, nein, halt", "links, vergiss es"),
+    ],
+)
+def test_what_is_taken_back_at_the_end_is_a_stop(text: str) -> None:
+    assert is_stop(text)
+    assert parse(text, rooms=("kitchen", "Labor")) == STOP
+
+
+@pytest.mark.parametrize("text", ["never mind that, turn left", "turn left, no, right"])
+def test_what_is_taken_back_before_the_end_is_none(text: str) -> None:
+    assert not is_stop(text)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
         "stop! there is somebody in the way",
         "stop, not that one",
         "Halt! Da liegt was auf dem Boden",

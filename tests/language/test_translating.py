@@ -39,6 +39,19 @@ def test_values_sides_and_rooms_are_taken_out() -> None:
     assert text.words[2:4] == ("third", "door")
 
 
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("the twenty-fifth door", (25.0,)),
+        ("twenty third door on the left", (23.0,)),
+        ("go 0 metres", (0.0,)),
+        ("go 0.1 metres", (0.5,)),
+    ],
+)
+def test_a_value_is_what_was_said(text: str, values: tuple[float, ...]) -> None:
+    assert masked(text, ()).values == values
+
+
 def test_first_is_no_value() -> None:
     assert masked("the first door, the next one", ()).values == ()
 

@@ -95,7 +95,8 @@ class MissionMaker:
         [(why, _)] = objections.most_common(1)
         name = self.floor_plan.name
         raise ValueError(
-            f'no start found in {name} from which "{command}" can be carried out: {why}'
+            f'no start found in {name} from which "{command}" can be carried out: {why}; '
+            "another floor plan may have one"
         )
 
     def _with_implicit_steps(self, command: Command, start: Pose) -> Command:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -51,7 +52,10 @@ class Refusal:
     @property
     def error(self) -> CommandError:
         """Names the word that is at fault, or the nearest command."""
+        knows_the_room = bool(self.found and self.found.plain.rooms)
         for phrase, kinds in CAUSES:
+            if phrase == "refused_room" and knows_the_room:
+                continue
             for piece, known in self._words:
                 if known and known <= set(kinds):
                     return self._about(piece, phrase)
@@ -64,7 +68,7 @@ class Refusal:
         said = pieces(normalise(self.text, self.spoken).text)
         found = classes_of([piece.text for piece in said], lexicon_of(self.spoken))
         classes = ({name.partition(",")[0] for name in names} for names in found)
-        named = {word for room in self.rooms for word in plain_name(room).split(" ")}
+        named = {word for room in self.rooms for word in re.split("[^a-z0-9]", plain_name(room))}
         return [
             (piece, known)
             for piece, known in zip(said, classes, strict=True)

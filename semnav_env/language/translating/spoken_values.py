@@ -28,6 +28,9 @@ SIDE_WORDS = {
 }
 """Words for a side that are known with a slip, and with more behind them: "Linksdrehung"."""
 
+TENS = range(20, 100, 10)
+"""Numbers before which an ordinal is a part of one: "twenty fifth"."""
+
 _HALF_MINUTE = re.compile(r"half a minute|half minute|halbe minute|halben minute|halbminute")
 
 
@@ -46,11 +49,14 @@ def number_at(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[float, i
             return None
         return 60.0, minute[1]
     value, stop = float(found[0]), found[1]
+    ones = lexicon.find(words, stop, "ordinal") if value in TENS else None
+    if ones and 0 < float(ones[0]) < 10:
+        return value + float(ones[0]), ones[1]
     for kind, _, _ in lexicon.matches(words, stop):
         match kind:
             case "minutes":
                 return value * 60, stop
-            case "metres":
+            case "metres" if value:
                 return to_half_metre(value), stop
             case "cm":
                 return to_half_metre(value / 100), stop
