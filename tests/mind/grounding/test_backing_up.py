@@ -10,7 +10,15 @@ from hypothesis import strategies as st
 from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
 from semnav_env import SemNavEnv
-from semnav_env.language import BackUp, Command, Distance, decode, encode, parse
+from semnav_env.language import (
+    AmbiguousCommandError,
+    BackUp,
+    Command,
+    Distance,
+    decode,
+    encode,
+    parse,
+)
 from semnav_env.mind.grounding import GroundingError, ground
 from semnav_env.mind.grounding.backing_up import LANE, room_behind
 from semnav_features.frames import ORIGIN, compose
@@ -69,11 +77,17 @@ def test_nobody_backs_up_into_a_wall() -> None:
         ("fahr zwei Meter rückwärts", "back up for 2 metres"),
         ("zwei Meter rückwärts fahren", "back up for 2 metres"),
         ("setz einen Meter zurück", "back up for 1 metre"),
-        ("go back two metres", "back up for 2 metres"),
     ],
 )
 def test_only_a_distance_backwards_is_backed_up(text: str, meant: str) -> None:
     assert str(parse(text)) == meant
+
+
+def test_who_goes_back_some_metres_is_asked_whether_to_turn_round() -> None:
+    with pytest.raises(AmbiguousCommandError) as asked:
+        parse("go back two metres")
+    ways = ("turn around and go down the hallway for 2 metres", "back up for 2 metres")
+    assert set(asked.value.readings) == set(map(parse, ways))
 
 
 @given(st.integers(1, 20))

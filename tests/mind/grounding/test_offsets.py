@@ -8,6 +8,7 @@ from semnav_agents.base import steps
 from semnav_agents.registry import make_agent
 from semnav_env import SemNavEnv
 from semnav_env.language import (
+    AmbiguousCommandError,
     Command,
     Distance,
     DoorReference,
@@ -40,7 +41,6 @@ two metres past the second door = hallway until 2 m after door(2)
 go two metres past the second door = hallway until 2 m after door(2)
 stop three metres in front of the second door = hallway until 3 m before door(2); stop
 go until one metre before the end of the hallway = hallway until 1 m before end
-turn left two metres after the second door = hallway until 2 m after door(2); turn left
 one metre before the intersection, turn around = hallway until 1 m before intersection; turn around
 halt einen Meter vor der Ecke = hallway until 1 m before corner; stop
 fahr bis zwei Meter hinter die zweite Tür = hallway until 2 m after door(2)
@@ -49,6 +49,13 @@ go past the second door and then two metres further = hallway until 2 m after do
 after three metres, turn left = hallway for 3 m; turn left
 """
 CASES = [tuple(line.split(" = ")) for line in TEXTS.strip().splitlines()]
+
+
+def test_the_place_of_a_turn_may_be_asked_for() -> None:
+    with pytest.raises(AmbiguousCommandError) as asked:
+        parse("turn left two metres after the second door")
+    meant = "hallway until 2 m after door(2); turn left"
+    assert normal(meaning_of(asked.value.readings[0])) == normal(read_meaning(meant))
 
 
 @pytest.mark.parametrize(("text", "meaning"), CASES)
