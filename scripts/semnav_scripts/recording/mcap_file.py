@@ -107,7 +107,7 @@ def mcap_writer(path: Path) -> Iterator[McapWriter]:
         writer = Writer(file)
         writer.start(profile="", library="semnav-env")
         yield McapWriter(writer)
-        writer.finish()
+        writer.finish()  # type: ignore[no-untyped-call]
 
 
 def _schema(name: str) -> dict[str, Any]:
