@@ -26,7 +26,7 @@ class Judge:
 
     Where it has several, because an opening of the plan may be a door or not, one `ReadingJudge`
     judges each. The episode succeeds with the first of them that does, and fails with the last.
-    What the judge says otherwise is of the leading one: that with the nearest answer, until it
+    All other properties are those of the leading judge: the one with the nearest answer, until that
     fails.
 
     Args:
@@ -51,7 +51,9 @@ class Judge:
                 "or give payload=PersonSearch() of semnav_env.rescue"
             )
         judge_of = partial(ReadingJudge, payload=payload, measures_way=measures_way)
-        self._nearest, self._others = judge_of(mission), tuple(map(judge_of, mission.others))
+        self._nearest = judge_of(mission)
+        self._others = tuple(map(judge_of, mission.others))
+        self._all = (self._nearest, *self._others)
         self.leading = self._nearest
 
     def update(self, motion: Motion) -> Period:
@@ -82,9 +84,10 @@ class Judge:
 
     def conclude(self, truncated: bool) -> dict[str, Any]:
         """End the episode, whose time may be over; returns the entries of `info` at the end."""
-        for each in (self._nearest, *self._others) if truncated else ():
-            each.truncated = True
-            each.out_of_time()
+        if truncated:
+            for each in self._all:
+                each.truncated = True
+            self.out_of_time()
         return {
             "is_success": self.success,
             "crossed_doors": tuple(self.crossed),
@@ -93,7 +96,7 @@ class Judge:
 
     def out_of_time(self) -> None:
         """The episode ended before the command was carried out."""
-        for each in (self._nearest, *self._others):
+        for each in self._all:
             each.out_of_time()
 
     @property

@@ -24,7 +24,7 @@ CANCELLING = (
 """What takes back all that was said before it: a text that ends with it is a stop."""
 
 LONGEST_END = 3
-"""The most words of an urgent call, and of what cancels."""
+"""The most words of a phrase of `URGENT` or `CANCELLING`."""
 
 CALLS = (
     "stop|stop it|stop now|stop here|stop moving|stop right now|stop at once|stop immediately|halt|"
@@ -103,7 +103,7 @@ def _is_said_beside(words: Words) -> bool:
     return _TABLE.labels(words) is not None
 
 
-def _begins_with(words: Words) -> object:
-    """The kind of the phrase with which words begin; None if it is none of the table."""
+def _begins_with(words: Words) -> str | None:
+    """The kind of the phrase with which words begin; None if there is none."""
     found = _TABLE.longest(words, 0)
-    return found and found[1]
+    return None if found is None else str(found[1])

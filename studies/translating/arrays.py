@@ -30,8 +30,8 @@ from studies.translating.texts import TrainingText
 
 Ints = NDArray[np.int64]
 
-UNSAID = -1
-"""Behind the last symbol of a command."""
+NO_SYMBOL = -1
+"""Fills up a command behind its last symbol."""
 
 
 @dataclass(frozen=True)
@@ -130,7 +130,7 @@ class TextArrays:
             Bags(self.kinds[kinds], self.kind_shares[kinds], classed),
             self.marks[at],
             mask,
-            self.symbols[said].where(is_said, UNSAID),
+            self.symbols[said].where(is_said, NO_SYMBOL),
         )
 
 
@@ -158,7 +158,7 @@ class TextBatch:
         kinds: rows of the table of classes.
         marks: shape (b, n).
         mask: which words there are, shape (b, n).
-        symbols: what is to be said, `UNSAID` behind its end, shape (b, s).
+        symbols: what is to be said, `NO_SYMBOL` behind its end, shape (b, s).
     """
 
     grams: Bags

@@ -44,7 +44,8 @@ class Recipe:
         variants: of each text of an author.
         generated: paraphrases of the generator for each author, half of them of the commands that
             the author wrote.
-        seed: of the weights and the order; that of the texts is always 0.
+        seed: of the weights and the order. The texts are the same for every seed, so that teachers
+            and translator learn from the same ones.
         training: of the network.
     """
 
@@ -78,7 +79,7 @@ class Recipe:
 
 
 def strangers(teacher: int) -> tuple[Path, ...]:
-    """The files of the authors whom a teacher does not know, a quarter of all."""
+    """The files of the authors whom a teacher does not know: every fourth of the strangers."""
     return tuple(
         each
         for each in learned_corpora()

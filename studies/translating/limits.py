@@ -122,7 +122,10 @@ def _case(
 
 
 def outcome(case: TranslatedCase, limits: AskingLimits) -> str:
-    """What becomes of a text: done, asked, asked wrongly, refused or misread."""
+    """What becomes of a text: done, asked, asked wrongly, refused or misread.
+
+    Unlike the interpreter this does not ask whether the text speaks of each choice.
+    """
     if case.candidates and case.candidates[0][0] >= limits.acting:
         return "done" if case.candidates[0][1] else "misread"
     likely = case.candidates[: limits.choices]

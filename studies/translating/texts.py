@@ -156,7 +156,7 @@ def _with_parts(value: Any, change: Callable[[Any], Any]) -> Any:
 def disturbed(
     known: Sequence[TrainingText], count: int, rng: np.random.Generator
 ) -> Iterator[TrainingText]:
-    """Variants of texts: two in one, fillers, no punctuation, slips of the pen, left for right."""
+    """Variants of texts: each with one of its meanings, perhaps joined to others, and changed."""
     by_language = {code: [t for t in known if t.language == code] for code in FILLERS}
     for number in range(count):
         base = _with_one_meaning(known[number % len(known)], rng)

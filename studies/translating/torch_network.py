@@ -41,7 +41,7 @@ class TorchTranslator(TorchNetwork):
             x = x + self._feed(f"encode.{k}.feed", x)
         encoded = self.norm("encoded", x)
         y = self._drop(self._rows("symbols", said) + self.places[: said.shape[1]])
-        for k in range(self.shape.said_layers):
+        for k in range(self.shape.decoder_layers):
             y = y + self._attend(f"decode.{k}.self", y, None, None)
             y = y + self._attend(f"decode.{k}.cross", y, encoded, batch.mask)
             y = y + self._feed(f"decode.{k}.feed", y)

@@ -20,15 +20,15 @@ from torch.nn import functional
 from semnav_env.language.translating.masking import NO_MARK
 from semnav_env.language.translating.network import TranslatorNetwork, TranslatorShape
 from semnav_features.checked_fields import Count, check_fields
-from studies.translating.arrays import UNSAID, TextArrays, TextBatch, encoded
+from studies.translating.arrays import NO_SYMBOL, TextArrays, TextBatch, encoded
 from studies.translating.texts import TrainingText
 from studies.translating.torch_network import TorchTranslator
 
-LENGTHS = 8
-"""Into so many sets of about the same length the texts are parted; a batch is from one."""
+LENGTH_GROUPS = 8
+"""Groups of texts of similar length; each batch is drawn from one group."""
 
-OWN = 0.5
-"""Share of the authors' own meanings in what is learned, where there are teachers."""
+OWN_WEIGHT = 0.5
+"""Weight of the authors' own meanings in the loss; what the teachers say has the rest."""
 
 SHOWN = 500
 """Steps between two lines of the log."""
@@ -50,7 +50,7 @@ class TranslatorTraining:
         device: "cpu", or "cuda" for a graphics processor.
     """
 
-    steps: Count = 23000
+    steps: Count = 23150
     batch: Count = 256
     rate: float = 1.5e-3
     warm_up: Count = 500
@@ -114,10 +114,10 @@ def _draws(
     """For each step the numbers of texts of similar length, with their most words and symbols."""
     rng = np.random.default_rng(seed)
     lengths, said = (np.diff(each.numpy()) for each in (texts.first_words, texts.first_symbols))
-    sets = np.array_split(np.argsort(lengths + said, kind="stable"), LENGTHS)
+    sets = np.array_split(np.argsort(lengths + said, kind="stable"), LENGTH_GROUPS)
     limits = [(int(lengths[each].max()), int(said[each].max())) for each in sets]
     for _ in range(settings.steps):
-        k = int(rng.integers(LENGTHS))
+        k = int(rng.integers(LENGTH_GROUPS))
         yield torch.from_numpy(rng.choice(sets[k], settings.batch)), *limits[k]
 
 
@@ -132,8 +132,8 @@ def _pace(step: int, settings: TranslatorTraining) -> float:
 class _Descent:
     """Steps of gradient descent.
 
-    On a graphics processor the work of a step is recorded once for each shape of a batch and then
-    played back, as it takes longer to start its many small parts than to do them.
+    On a graphics processor a step is recorded once for each shape of a batch (a CUDA graph) and
+    then replayed, because starting its many small kernels takes longer than running them.
     """
 
     def __init__(
@@ -158,7 +158,7 @@ class _Descent:
         self._recorded: dict[tuple[int, int], Callable[[], Tensor]] = {}
 
     def step(self, numbers: Tensor, words: int, symbols: int, rate: float) -> Tensor:
-        """Go down once; the loss before.
+        """Take one step; returns the loss before it.
 
         Args:
             numbers: of the texts, shape (batch,).
@@ -208,7 +208,7 @@ class _Descent:
         seen = torch.rand(batch.marks.shape, device=limits.device) >= limits
         scores = self._model(batch, seen, said)
         own: Tensor = functional.cross_entropy(
-            scores.flatten(0, 1), wanted.flatten(), ignore_index=UNSAID
+            scores.flatten(0, 1), wanted.flatten(), ignore_index=NO_SYMBOL
         )
         if not self._teachers:
             return own
@@ -217,6 +217,7 @@ class _Descent:
             shares = [each(batch, all_seen, said).softmax(dim=2) for each in self._teachers]
             taught = torch.stack(shares).mean(dim=0)
         missed = -(taught * scores.log_softmax(dim=2)).sum(dim=2)
-        counts = wanted != UNSAID
-        loss: Tensor = OWN * own + (1.0 - OWN) * (missed * counts).sum() / counts.sum()
+        counts = wanted != NO_SYMBOL
+        from_teachers = (missed * counts).sum() / counts.sum()
+        loss: Tensor = OWN_WEIGHT * own + (1.0 - OWN_WEIGHT) * from_teachers
         return loss

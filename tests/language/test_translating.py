@@ -113,7 +113,7 @@ def test_the_network_says_the_same_as_that_of_torch() -> None:
     from studies.translating.arrays import EncodedText, TextArrays
     from studies.translating.torch_network import TorchTranslator
 
-    shape = TranslatorShape(8, 2, 2, 16, said_layers=1, buckets=64, classes=32)
+    shape = TranslatorShape(8, 2, 2, 16, decoder_layers=1, buckets=64, classes=32)
     model = TorchTranslator(shape, 0, 0.0).eval()
     kinds = (("verb go",), ("prep past", "det"), ("det",), ("ordinal",), ("noun door",))
     words = ("go", "past", "the", "third", "door")

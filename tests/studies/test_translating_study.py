@@ -85,7 +85,7 @@ def test_what_becomes_of_a_text_follows_from_its_probabilities(candidates, becom
     assert outcome(TranslatedCase("feasible", candidates, "english"), AskingLimits()) == becomes
 
 
-def test_the_limits_are_shown_of_what_the_interpreter_finds() -> None:
+def test_most_texts_that_were_learned_have_a_right_candidate() -> None:
     found = list(cases_of(learned_corpora()[2], TRAINED_FOLDER))[:20]
     assert sum(any(right for _, right in case.candidates) for case in found) >= 15
 

@@ -36,8 +36,7 @@ MARKS = FIRST_ROOM + MAX_ROOMS
 VALUE_SYMBOLS = tuple(f"value {n}" for n in range(MAX_VALUES))
 SIDE_SYMBOLS = ("side 0", "side 1")
 ROOM_SYMBOLS = tuple(f"room {n}" for n in range(MAX_ROOMS))
-"""The symbol of the network for each mark."""
-
+"""Symbols of the network for values, sides and rooms."""
 
 LONGEST_QUOTED = 3
 """The most words in quotation marks that are taken for a room where no names are known."""

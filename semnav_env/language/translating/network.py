@@ -53,15 +53,16 @@ class TranslatorShape(TransformerSettings):
     """Sizes of the network; the width is that of the encoding of a word.
 
     Attributes:
-        said_layers: of the decoder, which is run for every symbol; `layers` are the encoder's. A
-            deep encoder with a shallow decoder is as good and faster (Kasai et al. 2021).
+        decoder_layers: layers of the decoder, which runs for every symbol; `layers` counts those of
+            the encoder. A deep encoder with a shallow decoder is as good and faster (Kasai et al.
+            2021).
         buckets: rows of the table of n-grams.
         classes: rows of the table of word classes.
     """
 
     KIND = "translator"
 
-    said_layers: Count = 2
+    decoder_layers: Count = 2
     buckets: Count = 8192
     classes: Count = 1024
 
@@ -74,12 +75,12 @@ class TranslatorShape(TransformerSettings):
             "marks": (MARKS, d),
             "symbols": (len(SYMBOLS), d),
         }
-        coded = [f"encode.{k}" for k in range(self.layers)]
-        said = [f"decode.{k}" for k in range(self.said_layers)]
-        for block in (*coded, *said):
+        encoder = [f"encode.{k}" for k in range(self.layers)]
+        decoder = [f"decode.{k}" for k in range(self.decoder_layers)]
+        for block in (*encoder, *decoder):
             shapes |= _block(f"{block}.self", d) | perceptron_shapes(f"{block}.feed", d, h, d)
             shapes |= norm_shapes(f"{block}.feed.norm", d)
-        for block in said:
+        for block in decoder:
             shapes |= _block(f"{block}.cross", d)
         shapes |= norm_shapes("encoded", d) | norm_shapes("decoded", d)
         return shapes | linear_shapes("say", d, len(SYMBOLS))
@@ -204,10 +205,10 @@ class Beams:
             linear(self._tensors, f"decode.{k}.cross.memory", encoded).reshape(
                 1, len(encoded), 2, heads, d // heads
             )
-            for k in range(network.shape.said_layers)
+            for k in range(network.shape.decoder_layers)
         ]
         nothing = np.zeros((1, 0, 2, heads, d // heads), np.float32)
-        self._said = [nothing] * network.shape.said_layers
+        self._said = [nothing] * network.shape.decoder_layers
 
     def keep(self, rows: Sequence[int]) -> None:
         """Go on with these rows, one of them for each beginning."""
@@ -217,7 +218,7 @@ class Beams:
         """Log probability of each symbol behind the given last ones, shape (rows, symbols)."""
         x = self._tensors["symbols"][list(said)] + self._places[self._length]
         self._length += 1
-        for k in range(self._shape.said_layers):
+        for k in range(self._shape.decoder_layers):
             plain = layer_norm(self._tensors, f"decode.{k}.self.norm", x)
             new = linear(self._tensors, f"decode.{k}.self.memory", plain)
             new = new.reshape(len(x), 1, *self._said[k].shape[2:])

@@ -26,8 +26,8 @@ CAUSES = (
     ("refused_word", (UNKNOWN,)),
     ("refused_or", ("or",)),
 )
-"""What is said of the first word that belongs to some classes and to no others. The first cause
-that there is counts."""
+"""What is said of a word at fault, and its classes: it has one of them, and no others. The causes
+are tried in this order. What forbids has "not", too."""
 
 LEAST_LIKENESS = 0.05
 """Least probability of the command that a refusal names as the nearest one."""
@@ -52,12 +52,12 @@ class Refusal:
     @property
     def error(self) -> CommandError:
         """Names the word that is at fault, or the nearest command."""
-        knows_the_room = bool(self.found and self.found.plain.rooms)
+        names_a_room = bool(self.found and self.found.plain.rooms)
         for phrase, kinds in CAUSES:
-            if phrase == "refused_room" and knows_the_room:
+            if phrase == "refused_room" and names_a_room:  # the fault is another one
                 continue
             for piece, known in self._words:
-                if known and known <= set(kinds):
+                if known and known <= set(kinds) and (phrase != "refused_not" or "not" in known):
                     return self._about(piece, phrase)
         problem = "refused_question" if "?" in self.text else "refused"
         return CommandError(self.spoken.say(problem), self.text, hint=self._nearest())

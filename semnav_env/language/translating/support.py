@@ -40,7 +40,7 @@ class TextSupport:
 
     @classmethod
     def of(cls, words: Sequence[str]) -> TextSupport:
-        """The command of some words, whose language is recognised."""
+        """The evidence in some words, whose language is recognised."""
         each = tuple(part for word in words for part in word.split(" "))
         return cls(each, lexicon_for(each, recognised(each)))
 
