@@ -27,7 +27,7 @@ from semnav_agents.evaluation import (
     summarise,
 )
 from semnav_agents.evaluation.provenance import provenance
-from semnav_agents.evaluation.runner import SHARE
+from semnav_agents.evaluation.runner import JOBS_OF_A_SHARE
 from semnav_agents.learned import agent_label
 from semnav_env.judge.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.rendering.backend import load_pygame
@@ -108,7 +108,7 @@ class Arguments:
         seeds = range(first, first + count)
         total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
         extras = Extras(self.recheck, self.pictures, self.films)
-        workers = self.workers or min(os.cpu_count() or 1, -(-total // SHARE))
+        workers = self.workers or min(os.cpu_count() or 1, -(-total // JOBS_OF_A_SHARE))
         how = workers, extras, self.dynamics, self.lidar
         who = self._who()
         results = self._drive(run_suite(trials, self.agent, self.robot, seeds, *how), total, who)

@@ -55,8 +55,11 @@ NO_EXTRAS = Extras()
 TRIAL_SECONDS, EPISODE_SECONDS = 120.0, 300.0
 """Time limits of a trial and of a frozen episode, whose routes are longer; simulated seconds."""
 
-TOGETHER, SHARE = 16, 32
-"""Largest number of episodes that are driven at once in a process, and that it takes at a time."""
+MAX_TOGETHER = 16
+"""The most episodes that a process drives at once."""
+
+JOBS_OF_A_SHARE = 32
+"""The most episodes that a process takes at a time."""
 
 STEPS_PER_FILM_FRAME = 15
 """Steps between the frames of a failure's film, one second: it runs five times as fast as the
@@ -113,7 +116,7 @@ def run_suite(
     if workers == 1:
         yield from SuiteRunner(setup).run(jobs)
         return
-    shares = [jobs[k : k + SHARE] for k in range(0, len(jobs), SHARE)]
+    shares = [jobs[k : k + JOBS_OF_A_SHARE] for k in range(0, len(jobs), JOBS_OF_A_SHARE)]
     processes = multiprocessing.get_context("spawn")
     with for_this_process_alone():
         pool = processes.Pool(min(workers, len(shares)), _start_worker, (_pickled(setup),))
@@ -179,7 +182,7 @@ class SuiteRunner:
     def _run(self, jobs: Sequence[SuiteJob], max_seconds: float) -> Iterator[Result]:
         """The results of jobs with one time limit, in their order."""
         extras = self._setup.extras
-        crew = self._crew(min(TOGETHER, len(jobs)), max_seconds)
+        crew = self._crew(min(MAX_TOGETHER, len(jobs)), max_seconds)
         found, done = dict[int, Result](), 0
         for number, driven in drive_together(*crew, jobs):
             found[number] = jobs[number].result(driven, extras)
