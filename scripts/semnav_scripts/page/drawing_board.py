@@ -20,6 +20,7 @@ from semnav_env.world.maps.editing import (
 from semnav_env.world.maps.importers import ImportedPlan, import_map
 from semnav_env.world.maps.importers.occupancy import IMAGE_SUFFIXES
 from semnav_env.world.maps.reader import parse_plan
+from semnav_features.writing import write_file
 from semnav_scripts.page.plan_message import plan_message
 from semnav_scripts.page.requests import DrawRequest
 
@@ -76,7 +77,7 @@ class DrawingBoard:
             return cls(_read(name, content))
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / f"plan{suffix}"
-            path.write_bytes(content)
+            write_file(path, content)
             is_image = suffix in IMAGE_SUFFIXES
             try:
                 found = import_map(path, PROVISIONAL_RESOLUTION if is_image else None)
