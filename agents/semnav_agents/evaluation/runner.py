@@ -193,7 +193,12 @@ class SuiteRunner:
                 done += 1
 
     def _crew(self, robots: int, max_seconds: float) -> tuple[SemNavVectorEnv, AgentTeam]:
-        """So many robots and their drivers, kept from one share to the next."""
+        """An environment of some robots and the team that drives them, made once for each number.
+
+        Args:
+            robots: number of them.
+            max_seconds: time limit of an episode, simulated seconds.
+        """
         crew = self._crews.get((robots, max_seconds))
         if crew is None:
             team = make_team(self._setup.agent, robots)
