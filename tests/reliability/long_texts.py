@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import string
-import time
 from collections.abc import Callable
 
 from hypothesis import strategies as st
@@ -25,11 +23,11 @@ TOKENS = (
 )
 """Short tokens of both languages, and of punctuation."""
 
+MOST_CHARACTERS = 500
+"""Longest refusal that is still one short line, characters."""
+
 LENGTHS = (1, 9, 80, 81, 300, 3_999, 4_000, 10_000, 19_900)
 """Lengths of the runs, characters; some at the limits of the parser."""
-
-MOST_SECONDS = 2.0
-"""Longest processor time for one run that is no hang, seconds; most take less than 0.05 s."""
 
 READERS: tuple[tuple[Callable[[str, str | None], object], str | None], ...] = (
     (parse, "en"),
@@ -47,11 +45,14 @@ def run_of(token: str, length: int) -> str:
 
 
 def read_run(run: tuple[str, int]) -> None:
-    """A run is read or refused in one short line, by all readers, in little time."""
+    """A run is read or refused in one short line, by all readers.
+
+    No time is measured: one collection of garbage in a large process takes seconds.
+    """
     text = run_of(*run)
     for reader, language in READERS:
-        begun = time.process_time()
-        with contextlib.suppress(CommandError):
+        try:
             reader(text, language)
-        used = time.process_time() - begun
-        assert used < MOST_SECONDS, f"a run of {run[0]!r} takes {used:.1f} s"
+        except CommandError as error:
+            assert "\n" not in error.summary, f"a run of {run[0]!r}: {error.summary}"
+            assert len(error.summary) < MOST_CHARACTERS, f"a run of {run[0]!r}: {error.summary}"
