@@ -24,6 +24,7 @@ STUDIES = CommandTable(
         "places": ("studies.places.command", "corridors told from other places"),
         "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
         "limits": ("studies.translating.limits", "show when it is best to act, to ask, to refuse"),
+        "refine": ("studies.translating.refining", "let the translator learn from new authors"),
         "search": ("studies.search.command", "houses searched with their plan and without"),
         "segmentation": ("studies.segmentation.command", "how walls are cut into pieces"),
         "speech": ("studies.speech.command", "the speech parser, with fillers and without commas"),

@@ -3,6 +3,8 @@
 Three teachers learn first, each without a quarter of the authors. The translator learns from all
 authors and from what the teachers say together. What a teacher makes of the authors whom it does
 not know is shown by `python -m studies limits`.
+
+`python -m studies refine` lets it go on learning when there are new authors.
 """
 
 from __future__ import annotations
@@ -11,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import groupby, islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -34,6 +37,24 @@ TEACHERS_FOLDER = Path("out/teachers")
 
 FIRST_STRANGER = 11
 """The first author with whose texts the lexicon was not written; all teachers know those before."""
+
+
+CORPORA = "corpora"
+"""What the card calls the files from which a translator has learned."""
+
+
+def names_of(corpora: Sequence[Path]) -> list[str]:
+    """The names of files, as a card has them."""
+    return [path.name for path in corpora]
+
+
+def write_translator(
+    out: Path, network: TranslatorNetwork, preset: dict[str, Any], seed: int
+) -> None:
+    """Write the files of a translator to a folder, the weights in half precision."""
+    halves = {name: array.astype(np.float16) for name, array in network.tensors.items()}
+    save_weights(out, halves)
+    Card(network.shape, preset, seed).write(out)
 
 
 @dataclass(frozen=True)
@@ -60,14 +81,15 @@ class Recipe:
         """Train a translator on the texts of corpora, and write its files to a folder."""
         texts = arrays_of(self.texts(corpora), self.training.shape)
         network = trained(texts, self.training, self.seed, teachers)
-        preset = asdict(self) | {"corpora": [path.name for path in corpora]}
-        halves = {name: array.astype(np.float16) for name, array in network.tensors.items()}
-        save_weights(out, halves)
-        Card(network.shape, preset, self.seed).write(out)
+        write_translator(out, network, asdict(self) | {CORPORA: names_of(corpora)}, self.seed)
 
     def texts(self, corpora: Sequence[Path]) -> Iterator[TrainingText]:
         """All texts from which the network learns."""
         yield from of_episodes("train")
+        yield from self.of_authors(corpora)
+
+    def of_authors(self, corpora: Sequence[Path]) -> Iterator[TrainingText]:
+        """Those that are made of the texts of authors."""
         for author, paths in groupby(sorted(corpora), key=author_of):
             yield from self.of_author(author, [text for path in paths for text in authored(path)])
 

@@ -24,7 +24,7 @@ from studies.translating.arrays import NO_SYMBOL, TextArrays, TextBatch, encoded
 from studies.translating.texts import TrainingText
 from studies.translating.torch_network import TorchTranslator
 
-LENGTH_GROUPS = 8
+LENGTH_GROUPS = 16
 """Groups of texts of similar length; each batch is drawn from one group."""
 
 OWN_WEIGHT = 0.5
@@ -74,6 +74,7 @@ def trained(
     settings: TranslatorTraining,
     seed: int,
     teachers: Sequence[TranslatorNetwork] = (),
+    begun: TranslatorNetwork | None = None,
 ) -> TranslatorNetwork:
     """A network that translates the texts.
 
@@ -82,12 +83,17 @@ def trained(
         settings: of the training.
         seed: of the weights and of what is drawn.
         teachers: networks whose probabilities are learned beside the texts' own meanings.
+        begun: a network of the same shape whose weights are the first ones; without it they are
+            drawn.
     """
     torch.set_num_threads(1)  # a small network is slower with more, and its sums may differ
     torch.manual_seed(seed)
     device = settings.device
     torch.backends.cuda.matmul.allow_tf32 = True
-    model = TorchTranslator(settings.shape, seed, settings.dropout).to(device)
+    model = TorchTranslator(settings.shape, seed, settings.dropout)
+    if begun is not None:
+        _copy(begun, model)
+    model.to(device)
     known = [_teacher(each).to(device) for each in teachers]
     descent = _Descent(model, known, texts.to(device), settings)
     start, losses = time.monotonic(), torch.zeros((), device=device)
@@ -102,23 +108,34 @@ def trained(
 
 def _teacher(network: TranslatorNetwork) -> TorchTranslator:
     model = TorchTranslator(network.shape, 0, 0.0)
+    _copy(network, model)
+    return model.eval().requires_grad_(False)
+
+
+def _copy(network: TranslatorNetwork, model: TorchTranslator) -> None:
+    """Give a model the weights of a network."""
     with torch.no_grad():
         for name, tensor in model.named().items():
             tensor.copy_(torch.from_numpy(network.tensors[name]))
-    return model.eval().requires_grad_(False)
 
 
 def _draws(
     texts: TextArrays, settings: TranslatorTraining, seed: int
 ) -> Iterator[tuple[Tensor, int, int]]:
-    """For each step the numbers of texts of similar length, with their most words and symbols."""
+    """For each step the numbers of texts of similar length, with their most words and symbols.
+
+    On a graphics processor these are the most of the group, so that few steps are recorded.
+    """
     rng = np.random.default_rng(seed)
     lengths, said = (np.diff(each.numpy()) for each in (texts.first_words, texts.first_symbols))
-    sets = np.array_split(np.argsort(lengths + said, kind="stable"), LENGTH_GROUPS)
+    groups = min(LENGTH_GROUPS, len(lengths))
+    sets = np.array_split(np.argsort(lengths + said, kind="stable"), groups)
     limits = [(int(lengths[each].max()), int(said[each].max())) for each in sets]
     for _ in range(settings.steps):
-        k = int(rng.integers(LENGTH_GROUPS))
-        yield torch.from_numpy(rng.choice(sets[k], settings.batch)), *limits[k]
+        k = int(rng.integers(groups))
+        drawn = rng.choice(sets[k], settings.batch)
+        most = int(lengths[drawn].max()), int(said[drawn].max())
+        yield torch.from_numpy(drawn), *(most if settings.device == "cpu" else limits[k])
 
 
 def _pace(step: int, settings: TranslatorTraining) -> float:

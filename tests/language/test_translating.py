@@ -130,17 +130,29 @@ def test_the_network_says_the_same_as_that_of_torch() -> None:
         np.testing.assert_allclose(found, expected[count].numpy(), atol=1e-5)
 
 
-def test_training_is_the_same_for_the_same_seed() -> None:
+def briefly_trained(rate: float, begun: TranslatorNetwork | None = None) -> TranslatorNetwork:
+    """A small network after three steps on three texts."""
     pytest.importorskip("torch")
     from studies.translating.texts import TrainingText
     from studies.translating.training import TranslatorTraining, arrays_of, trained
 
     shape = TranslatorShape(width=8, heads=2, layers=1, hidden=16, buckets=64, classes=32)
-    settings = TranslatorTraining(steps=3, batch=4, warm_up=1, shape=shape)
+    settings = TranslatorTraining(steps=3, batch=4, rate=rate, warm_up=1, shape=shape)
     said = ("turn left", "go to the third door", "stop") * 3
     texts = arrays_of([TrainingText(each, "en", (), (parse(each),)) for each in said], shape)
-    first, second = (trained(texts, settings, 7).tensors for _ in range(2))
+    return trained(texts, settings, 7, begun=begun)
+
+
+def test_training_is_the_same_for_the_same_seed() -> None:
+    first, second = (briefly_trained(1e-3).tensors for _ in range(2))
     assert all(np.array_equal(first[name], second[name]) for name in first)
+
+
+def test_a_network_that_goes_on_learning_begins_with_its_own_weights() -> None:
+    begun = briefly_trained(1e-2)
+    after = briefly_trained(1e-9, begun)
+    for name, weights in begun.tensors.items():
+        np.testing.assert_allclose(after.tensors[name], weights, atol=1e-6)
 
 
 GOLDEN = {
