@@ -19,8 +19,8 @@ LONGEST_NAME = 6
 MIN_MISSPELT, TWO_SLIPS = 5, 9
 """The fewest letters of a name that is known with one slip, and with two."""
 
-FEET, YARDS = 0.3048, 0.9144
-"""Metres."""
+METRES = {"cm": 0.01, "inches": 0.0254, "feet": 0.3048, "yards": 0.9144}
+"""Metres of a unit, by its kind in the lexicon."""
 
 SIDE_WORDS = {
     **dict.fromkeys(("left", "links", "linke", "linken", "linker"), Side.LEFT),
@@ -58,10 +58,8 @@ def number_at(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[float, i
                 return value * 60, stop
             case "metres" if value:
                 return to_half_metre(value), stop
-            case "cm":
-                return to_half_metre(value / 100), stop
-            case "feet" | "yards":
-                return to_half_metre(value * (FEET if kind == "feet" else YARDS)), stop
+            case _ if kind in METRES:
+                return to_half_metre(value * METRES[kind]), stop
     return value, stop
 
 
