@@ -23,6 +23,9 @@ from studies.translating.training import TranslatorTraining, arrays_of, trained
 NEW, KNOWN = Recipe(), Recipe(variants=2, generated=200)
 """What is made of the texts of new authors, and of those from whom it has learned before."""
 
+REFINED = "refined"
+"""What the card calls the times when it has gone on, the first one first."""
+
 
 def _refinement() -> TranslatorTraining:
     return TranslatorTraining(steps=5000, batch=64, rate=4e-4, warm_up=100)
@@ -52,8 +55,9 @@ class Arguments:
             raise ValueError(f"the translator in {self.begin} knows all authors already")
         texts = arrays_of(chain(KNOWN.texts(known), NEW.of_authors(new)), begun.shape)
         network = trained(texts, self.training, card.seed, [begun], begun)
-        refined = {"corpora": names_of(new), "training": asdict(self.training)}
-        preset = card.preset | {CORPORA: names_of(corpora), "refined": refined}
+        step = {"new": names_of(new), "training": asdict(self.training)}
+        refined = [*card.preset.get(REFINED, ()), step]
+        preset = card.preset | {CORPORA: names_of(corpora), REFINED: refined}
         write_translator(self.out, network, preset, card.seed)
         print(f"wrote {self.out}")
         return 0
