@@ -48,7 +48,7 @@ def slowly():
 WEIGHTS = 3
 '''
 
-DOCUMENTATION = ROOT / "docs" / "agents.md"
+DOCUMENTATION = ROOT / "docs" / "guides" / "agents.md"
 COMMAND = "go through the first door on the right"
 
 
