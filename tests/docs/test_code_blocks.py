@@ -42,11 +42,6 @@ def test_the_page_for_learners_runs() -> None:
     assert abs(shown["robots"].reset()["goal"]).max() <= shown["robots"].clip_obs
 
 
-def test_the_page_of_the_environment_runs() -> None:
-    shown = run("docs/environments/index.md", {})
-    assert len(shown["believed"]) == len(shown["odometry"]) == 3
-
-
 def test_the_page_of_gymnasiums_tools_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     run("docs/guides/gymnasium_tools.md", {})
