@@ -28,6 +28,8 @@ default_role = "code"  # `names` of docstrings are code
 
 html_theme = "furo"
 html_title = "semnav-env"
+html_static_path = ["_static"]
+html_css_files = ["cards.css"]
 
 
 def _as_rest(_app: Any, _what: str, _name: str, _it: Any, _options: Any, lines: list[str]) -> None:

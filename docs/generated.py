@@ -40,7 +40,8 @@ def contract(name: str, only: str | None) -> str:
     sections = re.split(r"(?m)^(?=## )", text)[1:]
     wanted = only.split(", ") if only else [_title(section) for section in sections]
     by_title = {_title(section): section for section in sections}
-    return "\n".join(by_title[title].rstrip() + "\n" for title in wanted)
+    shown = "\n".join(by_title[title].rstrip() + "\n" for title in wanted)
+    return re.sub(r"(?m)^- ([a-z_]+):", r"- `\1`:", shown)  # names of arguments and terms
 
 
 def spaces(name: str, _only: str | None) -> str:

@@ -18,7 +18,8 @@ COMMANDS = {
     "office_cross.png": "map show office_cross --out {}",
     "villa_hall.png": "map show villa_hall --out {}",
     "freiburg-079.png": "map build {log} --out {plan} --picture {}",
-    "habits.png": "habits {log} --episodes val_unseen --agents scripted drive --count 120 --plot {}",
+    "habits.png": "habits {log} --episodes val_unseen --agents scripted drive --count 120"
+    " --plot {}",
 }
 """What is typed for each; `log` is freiburg-079-corrected.log.gz of the Radish data set."""
 
