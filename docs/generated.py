@@ -127,8 +127,9 @@ def _link(package: str, name: str) -> str:
 def _defined_in(module: ModuleType, name: str) -> str:
     """The module that defines a name, which another one may only import."""
     for node in ast.walk(ast.parse(inspect.getsource(module))):
-        imported = getattr(node, "names", []) if isinstance(node, ast.ImportFrom) else []
-        if any((each.asname or each.name) == name for each in imported):
+        if not isinstance(node, ast.ImportFrom) or not node.module:
+            continue
+        if any((each.asname or each.name) == name for each in node.names):
             return _defined_in(import_module(node.module), name)
     return module.__name__
 

@@ -32,10 +32,12 @@ def main(name: str, log: Path | None = None) -> None:
         log: the recorded log, where the picture shows one.
 
     Raises:
-        ValueError: there is no such picture.
+        ValueError: there is no such picture, or its log is not given.
     """
     if name not in COMMANDS:
         raise ValueError(f"no picture {name!r}; there are: {', '.join(COMMANDS)}")
+    if "{log}" in COMMANDS[name] and log is None:
+        raise ValueError(f"{name} shows a log: give freiburg-079-corrected.log.gz with --log")
     places = {"log": log, "plan": Path("out", "floor.geojson")}
     words = COMMANDS[name].format(IMAGES / name, **places)
     subprocess.run(f"{sys.executable} -m semnav {words}", shell=True, check=True)
