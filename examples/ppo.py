@@ -2,7 +2,7 @@
 
 One sees decisions, the mean reward of a decision and the share of episodes that succeed. The few
 decisions of the default show that it runs; give more of them to see it learn. The same seed gives
-the same curve; docs/learners.md says what it reached.
+the same curve; docs/guides/learners.md says what it reached.
 
     python examples/ppo.py --steps 30720 --seed 0
 """

@@ -46,9 +46,14 @@ class SemNavEnv(GymnasiumEnv[Any]):
     clause by clause whether the command was carried out.
 
     ## Action Space
-    Shares of the largest speeds: `Box(-1, 1, (2,))`, forward speed and yaw rate, for the
-    wheelchair; `Box(-1, 1, (3,))`, forward speed, speed to the left and yaw rate, for SPOT. Values
-    outside are clipped; NaN, infinity and other shapes raise `ValueError`. Accelerations are
+    `Box(-1, 1, (2,), float32)` for the wheelchair, `Box(-1, 1, (3,), float32)` for SPOT: shares of
+    the largest speeds of the robot (`RobotSpec`).
+
+    - first: forward speed; below 0 the robot drives backward;
+    - second, only SPOT: speed to the left;
+    - last: yaw rate, counter-clockwise.
+
+    Values outside are clipped; NaN, infinity and other shapes raise `ValueError`. Accelerations are
     bounded by the robot.
 
     ## Observation Space
@@ -71,35 +76,57 @@ class SemNavEnv(GymnasiumEnv[Any]):
     `observe(moment)`, and by `EntryObservation(mode, extra)`.
 
     ## Rewards
-    The sum of the terms in `info["reward_terms"]`: progress along the shortest path, clauses done,
-    success, failure, contact, time. `AddedTerms` adds terms; an object with `terms(tick)` replaces
-    all of them.
+    The sum of the terms in `info["reward_terms"]`, by default (`RewardWeights`)
+
+    - progress: 1 for each metre by which the shortest path to the goal of the clause shrinks;
+    - clause: 2 when a clause was carried out; success: 10 when all were;
+    - failure: -5 at a wrong door or turn, or after standing still too long;
+    - contact: -0.1 and time: -0.01, each step in which the robot touches something, each step.
+
+    `AddedTerms` adds terms; an object with `terms(tick)` replaces all of them.
 
     ## Starting State
-    `reset(options=...)` takes "command" (text or `Command`), its "language", "implicit_steps" (or
-    not), "pose" (x, y, heading; world frame) and "floor_plan", or "episode", an `Episode` or the id
-    of one of `episodes`; without options the task decides. Values that are not given are drawn: a
-    free pose in a corridor, facing along it, and a command that can be carried out from there.
+    `reset(options=...)` takes "command" (text or `Command`), its "language", "ask" (answers the
+    question about an ambiguous text), "implicit_steps" (or not), "pose" (x, y, heading; world
+    frame) and "floor_plan", or "episode", an `Episode` or the id of one of `episodes`; without
+    options the task decides. Values that are not given are drawn: a free pose in a corridor, facing
+    along it, and a command that can be carried out from there.
 
     ## Episode End
-    Terminates when the command is carried out, at a wrong door or turn, and after 10 s of standing
-    still ("stopped short"); truncates after `max_seconds`. `info["collisions"]` counts contacts.
+    - Termination: the command is carried out, at a wrong door or turn, and after 10 s of standing
+      still ("stopped short").
+    - Truncation: after `max_seconds` of simulated time.
+
+    Contacts end no episode; `info["collisions"]` counts them.
 
     ## Arguments
-    robot: "wheelchair", "spot" or a `RobotSpec`. floor_plan: a name, a path or a `FloorPlan`;
-    "heidelberg_hallway" if it is not given.
-    observation: a mode, see above, or an observation type. lidar: "tim561", "barbret" or a
-    `LidarSpec`; its rate is the control rate. odometry: errors of dead reckoning: "usual", "exact",
-    "wheelchair", "spot" or an `OdometrySettings`. extractor: limits of the extractor.
-    corrects_drift: whether walls that are seen again correct odometry. rules: what a door is, how
-    words are grounded and what success is, for robot and judge. rewards: `RewardWeights`, or an
-    object with `terms(tick)`. dynamics: people, doors and furniture that move. payload: a
-    `Payload`, such as a person detector. task: a command, a list of commands, or a `Task`.
-    episodes: frozen episodes instead of a task: the name of a split, a file, or `Episode`s.
-    max_seconds: time limit of an episode, simulated seconds. render_mode: "rgb_array" or "human".
+    - robot: "wheelchair", "spot" or a `RobotSpec`.
+    - floor_plan: a name, a path or a `FloorPlan`; "heidelberg_hallway" if it is not given.
+    - observation: a mode, see above, or an observation type.
+    - lidar: the name of a lidar, such as "tim561" or "rplidar_a1", or a `LidarSpec`; its rate is
+      the control rate.
+    - odometry: errors of dead reckoning: "usual", "exact", "wheelchair", "spot" or an
+      `OdometrySettings`.
+    - extractor: limits of the extractor.
+    - corrects_drift: whether walls that are seen again correct odometry.
+    - rewards: `RewardWeights`, or an object with `terms(tick)`.
+    - dynamics: people, doors and furniture that move.
+    - payload: a `Payload`, such as a person detector.
+    - task: a command, a list of commands, or a `Task`.
+    - episodes: frozen episodes instead of a task: the name of a split, a file, or `Episode`s.
+    - rules: what a door is, how words are grounded and what success is, for robot and judge.
+    - max_seconds: time limit of an episode, simulated seconds.
+    - render_mode: "rgb_array" or "human".
 
-    ## Vectorized Environment, Version History, References
-    `make_vec(..., vectorization_mode="vector_entry_point")`; v0 is the first; see CITATION.cff.
+    ## Vectorized Environment
+    `gymnasium.make_vec(..., vectorization_mode="vector_entry_point")` makes a `SemNavVectorEnv`:
+    many robots in compiled calls, bit for bit as single environments.
+
+    ## Version History
+    - v0: the first version.
+
+    ## References
+    CITATION.cff names the works that features, grounding and poses before doors build on.
     """
 
     @takes_plain_settings

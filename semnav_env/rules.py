@@ -1,7 +1,7 @@
 """The rules by which a command is grounded and judged, with every tolerance.
 
 Robot and judge follow the same `Rules`, so both count the same door as the second one.
-docs/rules.md lists all rules.
+docs/concepts/rules.md lists all rules.
 """
 
 from __future__ import annotations

@@ -3,3 +3,4 @@
 from importlib.metadata import version
 
 __version__ = version("semnav-env")
+"""The version of the installed package."""

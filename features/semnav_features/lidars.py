@@ -56,6 +56,7 @@ TIM561 = _sector(
     "SICK TiM561 data sheet: 270 degrees at 0.33 degrees, 15 Hz, 0.05 to 10 m, statistical "
     "error 20 mm (1 sigma), systematic error +-60 mm",
 )  # fmt: skip
+"""The lidar that is taken if none is named."""
 
 BARBRET = LidarSpec(
     name="barbret",
@@ -65,6 +66,7 @@ BARBRET = LidarSpec(
     sigma=0.03,
     source="the TiM561 as Barbret 2021 rounds it: 270 degrees at 0.006 rad, sigma 30 mm",
 )
+"""The lidar of Barbret 2021, with the roundings of the thesis."""
 
 _CATALOGUE = (
     TIM561,

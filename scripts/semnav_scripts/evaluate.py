@@ -55,7 +55,7 @@ class Arguments:
         agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
             folder of a trained agent, or package.module:Class.
         robot: wheelchair or spot.
-        lidar: name of a lidar, such as rplidar_a1; docs/lidars.md lists them.
+        lidar: name of a lidar, such as rplidar_a1; docs/guides/lidars.md lists them.
         seeds: number of start poses, each with its own noise, for every command of a suite; 20 if
             not given.
         first_seed: number of the first seed; 0 if not given.

@@ -30,8 +30,8 @@ class Arguments:
     """Count the sentences that are understood, asked about, refused and misread.
 
     Attributes:
-        corpora: files of sentences with their meanings (.jsonl, see docs/meanings.md), or of plain
-            sentences, one a line; by default those of which nothing was
+        corpora: files of sentences with their meanings (.jsonl, see docs/guides/meanings.md), or of
+            plain sentences, one a line; by default those of which nothing was
             learned, in a checkout.
         language: force a language; by default each text is recognised.
         translator: folder of the translator; by default that of the package.

@@ -18,8 +18,9 @@ class Arguments:
     """Carry out spoken commands on a robot that publishes scans and odometry.
 
     It hears scan, odom, tf_static, semnav/command and semnav/stop, and says cmd_vel, semnav/status,
-    semnav/said (questions and refusals), semnav/belief, semnav/goal and semnav/markers; docs/ros.md
-    tells the types. Nothing moves before a command, nor without a scan of the last 0.5 s.
+    semnav/said (questions and refusals), semnav/belief, semnav/goal and semnav/markers;
+    docs/guides/ros.md tells the types. Nothing moves before a command, nor without a scan of the
+    last 0.5 s.
 
     Attributes:
         over: what carries the messages: ros1 (rospy), ros2 (rclpy), or dds, which talks to ROS 2

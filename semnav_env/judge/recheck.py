@@ -1,8 +1,8 @@
 """A second opinion: judges a recorded path by Shapely's geometry, apart from the judge.
 
 It shares no code with the judge or with the follower, only the goals that a command has on the
-true scene and the rules of docs/commands.md. It works on the whole path at once: first where each
-goal is met, each door crossed and each wrong arm entered, then which came first.
+true scene and the rules of docs/concepts/commands.md. It works on the whole path at once: first
+where each goal is met, each door crossed and each wrong arm entered, then which came first.
 """
 
 from __future__ import annotations

@@ -26,6 +26,7 @@ FAILURES = (
     *(Verdict.WRONG_DOOR, Verdict.WRONG_TURN, Verdict.STOPPED_SHORT),
     *(Verdict.INCOMPLETE, Verdict.OUT_OF_TIME),
 )
+"""Verdicts that end an episode without success."""
 
 
 @lru_cache(maxsize=256)

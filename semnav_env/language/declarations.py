@@ -93,7 +93,7 @@ class Form:
             for a clause from outside, format strings by the code of their language, with ":one"
             for those where a number is one; a language that is missing is said in the first.
         symbols: what the learned translator says, parted by spaces; empty if it has no symbols.
-        step: the step or place in the notation of docs/meanings.md; empty if it has none.
+        step: the step or place in the notation of docs/guides/meanings.md; empty if it has none.
         token: its first columns, where no field gives them: verb, number of the turning, and a
             member of `TOKEN_REFERENTS`. The verb of what is part of a clause is None. A clause from
             outside without a token has that of its `stand_in`.

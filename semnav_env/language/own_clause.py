@@ -10,7 +10,7 @@ from semnav_env.language.declarations import said_in_english
 
 
 class OwnClause(Clause, ABC):
-    """Base of clauses that are defined outside this package, see docs/extending.md.
+    """Base of clauses that are defined outside this package, see docs/guides/extending.md.
 
     `semnav_env.mind.grounding.GroundedClause` derives from it and adds where a clause leads. The
     reader has no words for such a clause: a command with it is given as a `Command`.

@@ -55,12 +55,58 @@ people."""
 
 
 def search_and_rescue(observation: Any = "semantic", **options: Any) -> SemNavEnv:
-    """A `SemNavEnv` in which a robot searches houses for people on the floor.
+    """A robot searches a house for people who lie or sit on its floors.
 
-    Args:
-        observation: a mode, which gets the entry "people" beside its own, or an observation type.
-        options: arguments of `SemNavEnv`; without them a robot searches a generated house for two
-            victims.
+    ## Description
+    SPOT (or the wheelchair) is sent into a house that nobody can look into. It visits every room,
+    inspects the floor from enough places, and reports where people are. The lidar cannot tell a
+    person on the floor from furniture; a camera with a person detector, `PersonSearch`, can, with
+    errors. It is the mission of Mes 2021, made of `SemNavEnv` with the command "search the house".
+
+    ## Action Space
+    As in `SemNav-v0`: `Box(-1, 1, (2,), float32)` for the wheelchair, `Box(-1, 1, (3,), float32)`
+    for SPOT; shares of the largest forward speed, speed to the left (SPOT) and yaw rate.
+
+    ## Observation Space
+    The entries of the mode, as in `SemNav-v0`, and
+
+    - people: 16 rows of is_there, x, y (robot frame, metres), probability (0 to 1) and reported,
+      the tracks of the robot's own map of people.
+
+    ## Rewards
+    The sum of the terms in `info["reward_terms"]`:
+
+    - area: 0.1 for each square metre of floor that the camera sees for the first time;
+    - people: 5 for each victim that is reported, -5 for each false report;
+    - clause, success, failure, contact and time as in `SemNav-v0`.
+
+    ## Starting State
+    Another generated house for each episode, with furniture, open doors and two victims in its
+    rooms; the robot stands in a hall. `reset(options=...)` is that of `SemNav-v0`.
+
+    ## Episode End
+    - Termination: the search is done: each room is covered by 95 %, each victim has a report within
+      1 m, and no report is false. Or "incomplete": before that the robot stands still for 20 s, by
+      which it says that it has finished.
+    - Truncation: after `max_seconds`, 1200 s of simulated time by default.
+
+    `info["search"]` says at the end what was covered, found and reported wrongly.
+
+    ## Arguments
+    - observation: a mode, which gets the entry "people" beside its own, or an observation type.
+    - options: arguments of `SemNavEnv`. Other defaults than there have task, dynamics (two
+      victims), payload (`PersonSearch`, whose settings are those of the detector), rewards and
+      max_seconds.
+
+    ## Vectorized Environment
+    `gymnasium.make_vec(..., vectorization_mode="vector_entry_point")` works; the person detector
+    runs in Python, so many robots are slower than in `SemNav-v0`.
+
+    ## Version History
+    - v0: the first version.
+
+    ## References
+    Mes 2021, "Point planning and drift correction based on reliable door detection".
     """
     return SemNavEnv(**_search_options(observation=observation, **options))
 

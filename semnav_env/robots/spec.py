@@ -85,6 +85,7 @@ WHEELCHAIR = RobotSpec(
     "(1.20 m x 0.70 m), driven at the rear third of its length; lidar at "
     "the front as in Barbret 2021",
 )
+"""A powered wheelchair with a lidar in front, as in Barbret 2021."""
 
 SPOT = RobotSpec(
     name="spot",
@@ -100,8 +101,10 @@ SPOT = RobotSpec(
     lidar_mount=(0.30, 0.0, 0.0),
     source="Boston Dynamics' SPOT specification: 1.10 m x 0.50 m, 1.6 m/s; the robot of Mes 2021",
 )
+"""The four-legged robot SPOT as a box that can also move sideways."""
 
 ROBOTS = {spec.name: spec for spec in (WHEELCHAIR, SPOT)}
+"""The bodies of the package by their names."""
 
 
 def robot_spec(name_or_spec: str | RobotSpec) -> RobotSpec:

@@ -21,6 +21,7 @@ FIGURES = [
     "logs",
     "mapping",
     "observation_table",
+    "of_commands",
     "offices",
     "page",
     "real_floor",
@@ -29,7 +30,9 @@ FIGURES = [
     "rules_table",
     "situations",
     "speed",
+    "tasks",
     "tour",
+    "your_floor",
 ]
 
 if __name__ == "__main__":

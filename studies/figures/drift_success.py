@@ -29,7 +29,7 @@ def draw(ax: Axes, rows: list[dict[str, float]], robot: str) -> None:
 
 
 def main(rows: Path = Path("out/drift.jsonl")) -> None:
-    """Draw what became of the episodes, and print the table of docs/drift.md.
+    """Draw what became of the episodes, and print the table of docs/concepts/drift.md.
 
     Args:
         rows: what `python -m studies drift` wrote.

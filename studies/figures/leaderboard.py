@@ -1,4 +1,4 @@
-"""Writes the table of docs/leaderboard.md from the kept results in docs/results."""
+"""Writes the table of docs/guides/leaderboard.md from the kept results in docs/results."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from semnav_agents.evaluation.leaderboard import standings
 from semnav_scripts.leaderboard import KEPT_SUFFIX, markdown
 from studies.figures import IMAGES
 
-PAGE = IMAGES.parent / "leaderboard.md"
+PAGE = IMAGES.parent / "guides" / "leaderboard.md"
 
 RESULTS = IMAGES.parent / "results"
 """Folder of the kept results: one file for each agent, split and body."""

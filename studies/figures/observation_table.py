@@ -1,4 +1,4 @@
-"""Writes docs/observations.md: every entry of the observation as the layout declares it."""
+"""Writes docs/guides/observations.md: every entry of the observation as the layout declares it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from semnav_env.mind.observations.layout import (
 from semnav_features.lidars import TIM561
 from studies.figures import IMAGES
 
-PAGE = IMAGES.parent / "observations.md"
+PAGE = IMAGES.parent / "guides" / "observations.md"
 
 TITLE = """# Entries of the observation
 

@@ -1,4 +1,4 @@
-"""Writes docs/rules.md: every rule of `Rules` with its value, unit and reason."""
+"""Writes docs/concepts/rules.md: every rule of `Rules` with its value, unit and reason."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from semnav_env.rules import GroundingRules, SuccessRules
 from semnav_features.rules import DoorRules
 from studies.figures import IMAGES
 
-PAGE = IMAGES.parent / "rules.md"
+PAGE = IMAGES.parent / "concepts" / "rules.md"
 
 TITLE = """# Rules
 

@@ -187,7 +187,7 @@ ITEMS = (
         "wished for",
         "{}",
         "semnav evaluate val_unseen --agent scripted --episodes 600",
-        (Figure("agents.md", ("`scripted`",), "`val_unseen`"),),
+        (Figure("guides/agents.md", ("`scripted`",), "`val_unseen`"),),
     ),
     ThesisItem(
         BARBRET,
@@ -196,7 +196,9 @@ ITEMS = (
         "wished for",
         "{} in {} passages",
         "semnav habits freiburg-079-corrected.log.gz",
-        tuple([Figure("habits.md", ("log freiburg-079",), c) for c in ("angle", "passages")]),
+        tuple(
+            [Figure("guides/habits.md", ("log freiburg-079",), c) for c in ("angle", "passages")]
+        ),
     ),
     ThesisItem(
         BARBRET,

@@ -48,7 +48,7 @@ def slowly():
 WEIGHTS = 3
 '''
 
-DOCUMENTATION = ROOT / "docs" / "agents.md"
+DOCUMENTATION = ROOT / "docs" / "tutorials" / "own_agent.md"
 COMMAND = "go through the first door on the right"
 
 

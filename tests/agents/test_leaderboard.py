@@ -232,7 +232,7 @@ def test_a_run_among_people_is_not_compared_with_runs_without(
     assert "people.jsonl:1: was driven with {'pedestrians': 2" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("page", ["command_line.md", "leaderboard.md"])
+@pytest.mark.parametrize("page", ["guides/command_line.md", "guides/leaderboard.md"])
 def test_the_documented_agent_is_not_on_the_leaderboard_yet(page: str) -> None:
     """The table takes no episode of an agent twice."""
     text = (DOCS / page).read_text()

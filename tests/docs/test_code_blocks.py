@@ -29,25 +29,20 @@ def run(page: str, shown: dict[str, Any]) -> dict[str, Any]:
 
 def test_the_vector_page_runs() -> None:
     pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
-    shown = run("docs/vector.md", {})
+    shown = run("docs/guides/vector.md", {})
     assert shown["observations"]["goal"].shape == (3, 13)
 
 
 def test_the_page_for_learners_runs() -> None:
     pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
-    shown = run("docs/learners.md", {})
+    shown = run("docs/guides/learners.md", {})
     size = 13 + 7 + 811
     assert shown["env"].reset(seed=0)[0].shape == (size,)
     assert shown["envs"].reset(seed=0)[0].shape == (8, size)
     assert abs(shown["robots"].reset()["goal"]).max() <= shown["robots"].clip_obs
 
 
-def test_the_page_of_the_environment_runs() -> None:
-    shown = run("docs/environment.md", {})
-    assert len(shown["believed"]) == len(shown["odometry"]) == 3
-
-
 def test_the_page_of_gymnasiums_tools_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    run("docs/gymnasium_tools.md", {})
+    run("docs/guides/gymnasium_tools.md", {})
     assert (tmp_path / "out" / "random.gif").stat().st_size > 0

@@ -1,4 +1,4 @@
-"""docs/rules.md lists every rule, and says of it what the code says."""
+"""docs/concepts/rules.md lists every rule, and says of it what the code says."""
 
 from __future__ import annotations
 

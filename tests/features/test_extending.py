@@ -1,4 +1,4 @@
-"""What docs/extending.md says can be added from outside can be, and its files are there."""
+"""What docs/guides/extending.md says can be added from outside can be, and its files are there."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from semnav_features.scan import Scan
 from tests.support.paths import ROOT, source
 
 MIND = ("mind/belief", "mind/grounding", "mind/observations")
-PAGE = (ROOT / "docs" / "extending.md").read_text()
+PAGE = (ROOT / "docs" / "guides" / "extending.md").read_text()
 POSE = (-2.5, -0.3, 0.24)
 
 

@@ -73,7 +73,7 @@ def first_reading(text: str) -> Command:
 
 
 def test_every_example_of_the_documentation_means_what_it_says() -> None:
-    page = (ROOT / "docs" / "wordings.md").read_text("utf-8")
+    page = (ROOT / "docs" / "guides" / "wordings.md").read_text("utf-8")
     rows = re.findall(r"^\| `([^`]+)` \| `([^`]+)` \|$", page, re.MULTILINE)
     assert len(rows) >= 20
     for text, canonical in rows:

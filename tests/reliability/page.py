@@ -149,7 +149,7 @@ A robot took {steps:,} random steps in {episodes:,} episodes on {floors:,} floor
 was generated for this drive. A process keeps {kept} floors in memory. The resident memory was
 {warm:.0f} MB when these had been made, and {memory:.0f} MB at the end. In between, the memory for
 distance fields fills up, to {fields:.0f} MB at most. Every observation and reward was finite. The
-drive took {seconds:,.0f} s on a busy machine; [Speed](speed.md) says how fast a step is.
+drive took {seconds:,.0f} s on a busy machine; [Speed](guides/speed.md) says how fast a step is.
 
 `make soak` measures all of this again and writes this page; `make soak COUNT=100000 STRIKES=100
 STEPS=50000000` tries more. A part of it runs with the tests (`tests/reliability`), together with

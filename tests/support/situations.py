@@ -29,7 +29,7 @@ class Row:
     """What a command means in a situation.
 
     Attributes:
-        id: what docs/commands.md calls it.
+        id: what docs/concepts/commands.md calls it.
         situation: a key of the table's situations.
         begin: where the command is given.
         command: its text.

@@ -11,7 +11,7 @@ from semnav_features.readers import LogRecord
 MAX_LOST, MAX_LOST_SHARE = 2, 0.05
 """Number and share of scans without a match beyond which the poses are unreliable: for a scan
 without a match the guess is taken, and its error adds to all later poses. Of the logs in
-docs/mapping.md one loses more, and drifts five times as far as the others."""
+docs/guides/mapping.md one loses more, and drifts five times as far as the others."""
 
 
 def matched(

@@ -1,4 +1,4 @@
-"""Texts with several meanings, built from the cases in docs/language.md.
+"""Texts with several meanings, built from the cases in docs/guides/language.md.
 
 Their meanings are written by hand and not taken from the grammar, so that they can test it.
 """

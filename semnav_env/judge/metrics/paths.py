@@ -13,7 +13,7 @@ from semnav_features.kernels.compiling import kernel
 
 PUBLISHED_GOAL_RADIUS = 3.0
 """Distance at which the published measures call a place reached, metres (Anderson et al. 2018b in
-docs/metrics.md)."""
+docs/concepts/metrics.md)."""
 
 PATH_SPACING = 0.25
 """Distance between the points of a path and a route that are compared, metres."""

@@ -25,7 +25,7 @@ COST_METRICS = frozenset(
 
 @dataclass(frozen=True)
 class Metrics:
-    """The measures of one episode; docs/metrics.md gives their formulas.
+    """The measures of one episode; docs/concepts/metrics.md gives their formulas.
 
     NaN stands for a measure that an episode does not have: an impossible command has no SPL and
     sDTW.

@@ -1,6 +1,6 @@
 """A command as steps of the notation, and which steps mean the same.
 
-The equivalences, each true by the rules of docs/commands.md:
+The equivalences, each true by the rules of docs/concepts/commands.md:
 
 1. "hallway" before a step that says how far, where to turn or which door, adds nothing.
 2. "hallway" at the end, and "cross" in a room, lead to the end; also along a wall.
@@ -51,7 +51,7 @@ def meaning_of(command: Command) -> Steps:
 
 
 def key_of(command: Command) -> object:
-    """A key that is equal for commands of the same meaning by the rules of docs/commands.md."""
+    """A key that is equal for commands of the same meaning (docs/concepts/commands.md)."""
     try:
         return normal(meaning_of(command))
     except TypeError:  # a clause without a step in the notation, such as a search

@@ -1,4 +1,4 @@
-"""The notation of docs/meanings.md: "hallway past door(1); through door(1,left)".
+"""The notation of docs/guides/meanings.md: "hallway past door(1); through door(1,left)".
 
 Commands are written in it by what their clauses declare.
 

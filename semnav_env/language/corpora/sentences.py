@@ -37,7 +37,7 @@ def load_sentences(path: Path) -> list[Sentence]:
     """The sentences of a corpus: `.jsonl` with meanings, or one plain sentence a line.
 
     Raises:
-        ValueError: a line is not as docs/meanings.md says; the message names the line.
+        ValueError: a line is not as docs/guides/meanings.md says; the message names the line.
     """
     lines = path.read_text("utf-8").splitlines()
     read = _with_meaning if path.suffix == ".jsonl" else _plain

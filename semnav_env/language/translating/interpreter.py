@@ -117,7 +117,7 @@ def parse(
 
     Args:
         text: for example "go down the hallway, turn left and go in the first door on the right";
-            docs/language.md tells what is understood.
+            docs/guides/language.md tells what is understood.
         language: "en", "de" or a `Language`; by default it is recognised.
         rooms: the names of the rooms that there are; empty if they are not known. If given, only
             these are understood, and they need no quotation marks.

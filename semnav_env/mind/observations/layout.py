@@ -145,6 +145,7 @@ GOAL = Entry(
     "of the clause, or a place on the way to a named room that is still far away. The pose of a "
     "pass goal lies behind its door and heads away from it",
 )
+"""The entry "goal"; `SeenGoal` reads it."""
 
 
 MEMORY_TABLES = (

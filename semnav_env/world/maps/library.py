@@ -36,7 +36,7 @@ def load_floor_plan(plan: str | Path | FloorPlan) -> FloorPlan:
 
     Raises:
         FloorPlanError: no such plan, which lists those there are; or a file or plan that breaks
-            a rule of docs/floor_plans.md, which says where and what would be right.
+            a rule of docs/guides/floor_plans.md, which says where and what would be right.
     """
     if isinstance(plan, FloorPlan):
         plan.derived(check_plan)

@@ -1,4 +1,4 @@
-"""Reads floor plans from GeoJSON in local metres; docs/floor_plans.md describes the format."""
+"""Reads floor plans from GeoJSON in local metres, the format of docs/guides/floor_plans.md."""
 
 from __future__ import annotations
 

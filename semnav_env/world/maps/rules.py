@@ -35,7 +35,7 @@ class FloorPlanError(ValueError):
 
 
 def check_plan(plan: FloorPlan) -> None:
-    """Refuse a plan that breaks a rule of docs/floor_plans.md.
+    """Refuse a plan that breaks a rule of docs/guides/floor_plans.md.
 
     Raises:
         FloorPlanError: names the part, what is wrong with it and what would be right.

@@ -20,7 +20,7 @@ def save_floor_plan(plan: FloorPlan, path: str | Path) -> None:
     """Write a plan so that `load_floor_plan` gives it back equal, one feature per line.
 
     Raises:
-        FloorPlanError: the plan breaks a rule of docs/floor_plans.md; nothing is written.
+        FloorPlanError: the plan breaks a rule of docs/guides/floor_plans.md; nothing is written.
         OSError: the file cannot be written.
     """
     check_plan(plan)

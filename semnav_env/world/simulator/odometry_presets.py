@@ -45,6 +45,7 @@ ODOMETRIES = {
     "wheelchair": WHEELCHAIR_ODOMETRY,
     "spot": SPOT_ODOMETRY,
 }
+"""The errors of dead reckoning by their names."""
 
 
 def odometry_settings(name_or_settings: str | OdometrySettings) -> OdometrySettings:

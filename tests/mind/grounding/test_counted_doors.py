@@ -1,4 +1,4 @@
-"""Which doors count, and which of them a clause means: the rules of docs/commands.md."""
+"""Which doors count, and which of them a clause means: the rules of docs/concepts/commands.md."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where the goal of a clause lies: the rules of docs/commands.md."""
+"""Where the goal of a clause lies: the rules of docs/concepts/commands.md."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ def test_a_command_means_what_the_table_says(row: Row) -> None:
 
 def test_the_documentation_speaks_of_every_row() -> None:
     pages = ("commands", "which_doors", "implicit_steps")
-    text = "".join((ROOT / "docs" / f"{page}.md").read_text("utf-8") for page in pages)
+    text = "".join((ROOT / "docs" / "concepts" / f"{page}.md").read_text("utf-8") for page in pages)
     named = set(re.findall(r"\b[DCFWKOJBRNE]\d+\b", text))
     assert named == {row.id for row in ROWS}
 

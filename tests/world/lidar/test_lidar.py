@@ -130,7 +130,7 @@ def test_any_number_of_beams_up_to_a_full_turn_is_scanned() -> None:
 
 
 def test_the_page_of_lidars_has_a_row_for_each_with_its_numbers():
-    page = (ROOT / "docs" / "lidars.md").read_text("utf-8")
+    page = (ROOT / "docs" / "guides" / "lidars.md").read_text("utf-8")
     for spec in LIDARS.values():
         (row,) = [line for line in page.splitlines() if line.startswith(f"| `{spec.name}`")]
         cells = [cell.strip() for cell in row.strip("|").split("|")]

@@ -50,7 +50,7 @@ def build_algorithm(preset: Preset, seed: int, options: RayOptions) -> PPO:
 
     RLlib cannot stop an update at `max_kl`. Its penalty on the divergence is not used, and hidden
     layers start orthogonal: with the defaults of RLlib, one training needed twice as many decisions
-    (docs/cluster.md).
+    (docs/guides/cluster.md).
     """
     logging.getLogger("ray.rllib").setLevel(logging.ERROR)
     register_env(ENVIRONMENT, partial(_envs, preset, options.threads))
