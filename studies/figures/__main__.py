@@ -23,6 +23,7 @@ FIGURES = [
     "observation_table",
     "offices",
     "page",
+    "play",
     "real_floor",
     "routes",
     "rules",
