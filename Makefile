@@ -96,7 +96,7 @@ $(VENV)/.docs: pyproject.toml constraints.txt
 
 $(VENV)/.test: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/pip install -q -c constraints.txt -e ".[render,rl,ros,serve,dds,rerun,mcap,dev]"
+	$(BIN)/pip install -q -c constraints.txt -e ".[render,play,rl,ros,serve,dds,rerun,mcap,dev]"
 	touch $@
 
 # On one core some 8 minutes of processor time for a seed of `drive`, 12 for one of `listener`: 100 in all.

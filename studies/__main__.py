@@ -9,6 +9,7 @@ STUDIES = CommandTable(
     "Measurements of the package; `python -m studies.figures --help` lists the pictures.",
     {
         "answers": ("studies.answers.command", "what right answers on real floors depend on"),
+        "assistance": ("studies.assistance.command", "drivers with shared control and without it"),
         "buildings": ("studies.buildings.command", "doors in scans of real floors"),
         "clouds": ("studies.clouds.command", "door jambs in point clouds, after Mes 2021"),
         "drift": ("studies.drift.command", "success against drift of odometry"),

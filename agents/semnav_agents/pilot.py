@@ -23,6 +23,7 @@ from semnav_env.language.clauses import Speed
 from semnav_env.mind.grounding import GoalKind
 from semnav_env.mind.observations import SeenGoal
 from semnav_env.robots import RobotSpec
+from semnav_env.robots.actions import shares_of
 from semnav_features.frames import (
     FloatArray,
     Point,
@@ -138,11 +139,7 @@ class Pilot:
 
     def _action(self, forward: float, left: float, yaw_rate: float) -> NDArray[np.float32]:
         """A twist as shares of the robot's limits."""
-        robot = self.robot
-        shares = [forward / robot.max_speed, yaw_rate / robot.max_turn_rate]
-        if robot.holonomic:
-            shares.insert(1, left / robot.max_sideways_speed)
-        return np.clip(np.array(shares, dtype=np.float32), -1.0, 1.0)
+        return shares_of((forward, left, yaw_rate), self.robot)
 
 
 def sign(value: float) -> float:

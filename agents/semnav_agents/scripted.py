@@ -87,13 +87,8 @@ class ScriptedTeam:
         pilot = self._pilots[index]
         assert pilot is not None
         pose, velocity = read_odometry(observation)
-        obstacles: Obstacles = self._perception.obstacles[index]
-        bumps = table(observation, "bumps")
-        if len(bumps):
-            walls = points_to_parent(pose, bumps.reshape(-1, 2).astype(np.float64)).reshape(-1, 4)
-            obstacles = JoinedObstacles((obstacles, as_obstacles(points_of_segments(walls))))
         return pilot.act(
-            obstacles,
+            with_felt_walls(self._perception.obstacles[index], observation, pose),
             table(observation, "remembered_doors").astype(np.float64),
             SeenGoal.read(observation["goal"]),
             pose,
@@ -101,6 +96,14 @@ class ScriptedTeam:
             self._perception.moving(index, pose, observation["scan"]),
             read_pace(observation),
         )
+
+
+def with_felt_walls(obstacles: Obstacles, observation: Observation, pose: Pose) -> Obstacles:
+    """The obstacles, and the walls that the robot at a pose has bumped into, in its frame."""
+    if "bumps" not in observation or not len(bumps := table(observation, "bumps")):
+        return obstacles
+    walls = points_to_parent(pose, bumps.reshape(-1, 2).astype(np.float64)).reshape(-1, 4)
+    return JoinedObstacles((obstacles, as_obstacles(points_of_segments(walls))))
 
 
 class ScriptedAgent:

@@ -29,6 +29,7 @@ from semnav_features.plot import check_suffix
 from semnav_features.readers import Geometry, LogError, LogRecord, open_log
 from semnav_scripts.arguments import parse_pose
 from semnav_scripts.outputs import check_file
+from semnav_scripts.playing.kept_runs import EPISODES, passages_of_runs
 from semnav_scripts.progress import tracked
 
 
@@ -40,7 +41,7 @@ class Arguments:
     of a log are those of a map that is built from its scans; those of an episode are the plan's.
 
     Attributes:
-        logs: logs, as `semnav extract` reads them.
+        logs: logs, as `semnav extract` reads them, and runs that `semnav play --out` kept.
         episodes: a split (`semnav episodes list`), or a file of episodes, for agents to drive.
         agents: the drivers of the episodes, as `semnav evaluate --agent` takes them.
         robot: their body, wheelchair or spot.
@@ -99,6 +100,8 @@ class Arguments:
 
     def _of_log(self, path: Path) -> tuple[DoorPassage, ...]:
         """The passages of whoever drove when a log was recorded."""
+        if path.name == EPISODES:
+            return passages_of_runs(path)
         mount, settings = parse_pose(self.mount), ExtractorSettings()
         robot_from_lidar = relative(mount, ORIGIN)
         line_map, poses, seconds = LineMap(), [], []

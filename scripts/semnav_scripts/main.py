@@ -15,6 +15,7 @@ SEMNAV = CommandTable(
             "extract": "turn a log of lidar scans into walls, doors, corners and corridors",
             "map": "list, show, check, generate, build, import and export floor plans",
             "demo": "let a robot carry out a command",
+            "play": "drive a robot by keyboard or gamepad",
             "serve": "open a page in the browser to try it in",
             "follow": "follow a command on a recorded log, as a robot would",
             "habits": "measure how drivers pass doorways, in logs and episodes",

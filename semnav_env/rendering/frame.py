@@ -41,6 +41,7 @@ class Frame:
         jambs: door jambs found among them, shape (k, 2).
         looked: middles of the cells of floor that a payload has inspected, shape (n, 2).
         flags: places that a payload has reported, shape (k, 2).
+        prompt: what is being typed, or what to do, in a field over the map; none if empty.
         in_contact: the body touches something.
         failed: the active clause has failed.
         skipped: indices of clauses that a condition ruled out; they keep their number.
@@ -71,6 +72,7 @@ class Frame:
     jambs: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     looked: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     flags: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    prompt: str = ""
     in_contact: bool = False
     failed: bool = False
 

@@ -13,6 +13,7 @@ from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.map_view import draw_map, draw_scale_bar
 from semnav_env.rendering.panel import PANEL_WIDTH, draw_panel
 from semnav_env.rendering.plan_layer import PlanLayer
+from semnav_env.rendering.prompt import draw_prompt
 from semnav_env.rendering.window import Window
 from semnav_env.world.maps.floor_plan import FloorPlan
 
@@ -58,9 +59,19 @@ class Viewer:
         Raises:
             RuntimeError: there is no display.
         """
+        window = self.window
+        return window.is_open and window.present(self._paint(frame))
+
+    @property
+    def window(self) -> Window:
+        """The window; opened when it is asked for first.
+
+        Raises:
+            RuntimeError: there is no display.
+        """
         if self._window is None:
             self._window = Window(self.size, "semnav-env", self.fps)
-        return self._window.is_open and self._window.present(self._paint(frame))
+        return self._window
 
     def close(self) -> None:
         """Close the window if there is one; a second call does nothing."""
@@ -79,6 +90,8 @@ class Viewer:
             self._plan.paste_onto(canvas, camera, self._map)
             draw_map(canvas, camera, frame)
             draw_scale_bar(canvas, camera, self._map)
+            if frame.prompt:
+                draw_prompt(canvas, self._map, frame.prompt)
         draw_panel(canvas, self._panel, frame)
         return canvas.finish()
 

@@ -1,4 +1,4 @@
-"""The window of `render_mode="human"`."""
+"""The window of `render_mode="human"` and of `semnav play`."""
 
 from __future__ import annotations
 
@@ -41,6 +41,10 @@ class Window:
             self._pygame.display.flip()
             self._clock.tick(self._fps)
         return self.is_open
+
+    def events(self) -> list[Any]:
+        """What was done since the last call, as events of pygame; none once it is closed."""
+        return self._pygame.event.get() if self.is_open else []
 
     def close(self) -> None:
         """Close the window; a second call does nothing."""

@@ -45,6 +45,15 @@ class Actions:
         return forward * fastest, left * fastest_left, turn * fastest_turn
 
 
+def shares_of(twist: Twist, robot: RobotSpec) -> NDArray[np.float32]:
+    """The action for a velocity: shares of a robot's largest speeds, cut to [-1, 1]."""
+    forward, left, yaw_rate = twist
+    shares = [forward / robot.max_speed, yaw_rate / robot.max_turn_rate]
+    if robot.holonomic:
+        shares.insert(1, left / robot.max_sideways_speed)
+    return np.clip(np.array(shares, dtype=np.float32), -1.0, 1.0)
+
+
 def action_array(action: ArrayLike, shape: tuple[int, ...]) -> NDArray[Any]:
     """Actions as an array of real numbers, which may still be infinite or NaN.
 

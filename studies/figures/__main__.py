@@ -24,6 +24,7 @@ FIGURES = [
     "of_commands",
     "offices",
     "page",
+    "play",
     "real_floor",
     "routes",
     "rules",

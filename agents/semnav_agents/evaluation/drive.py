@@ -7,8 +7,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from semnav_agents.base import Agent, GoalHolder, steps
 from semnav_agents.evaluation.causes import cause_of
 from semnav_env.env import SemNavEnv
@@ -20,7 +18,7 @@ from semnav_env.judge.metrics.final_belief import FinalBelief
 from semnav_env.judge.recheck import recheck
 from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
-from semnav_features.door_passages import DoorPassage, door_passages
+from semnav_features.door_passages import DoorPassage
 from semnav_features.frames import ORIGIN, Pose, compose, relative, to_parent
 
 
@@ -83,9 +81,7 @@ class Drive:
 
     def passages(self) -> tuple[DoorPassage, ...]:
         """How the robot passed doorways of the plan, in the order of time."""
-        rows = np.arange(len(self.recording.poses), dtype=np.float64)
-        doors = self.judge.mission.floor_plan.doors
-        return door_passages(self.recording.poses, rows * self.recording.period, doors)
+        return self.recording.passages(self.judge.mission.floor_plan.doors)
 
     def save_picture(self, path: str | Path, title: str = "") -> None:
         """Write a picture: plan, true route, driven path, contacts, goals, belief at the end."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Annotated, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,15 +17,15 @@ from semnav_agents.learning.room_memory import BodyShape, body_shape
 from semnav_agents.planning.free import points_around
 from semnav_agents.planning.motion import Move, moved
 from semnav_env.robots import RobotSpec
-from semnav_features.checked_fields import Length, Share, check_fields
+from semnav_features.checked_fields import Bounds, Count, Length, Share, check_fields
 from semnav_features.frames import FloatArray, Pose, Twist
 from semnav_features.kernels.compiling import kernel
 
 REACH = 2.4
 """Obstacles farther away than this are not reached before the robot stands, metres."""
 
-PERIOD = 0.1
-"""Time between two tested poses, seconds."""
+MAX_PERIODS = 600
+"""A robot that does not stand after so many periods counts as one that cannot stop."""
 
 STANDING_SPEED = 0.03
 """Speed below which a robot stands, m/s or rad/s."""
@@ -37,6 +38,31 @@ _TURNS = (0.0, 0.15, -0.15, 0.3, -0.3, 0.6, -0.6)
 _SIDEWAYS = (0.0, 0.4, -0.4)
 """Parts of the twists that are tried then, nearest first: shares of the largest speeds."""
 
+Offset: TypeAlias = Annotated[float, Bounds(-1.0, 1.0, "m")]
+"""A length that may be negative."""
+
+
+class Lookahead(NamedTuple):
+    """Which poses a shield tests.
+
+    Attributes:
+        period: time for which a velocity holds, seconds.
+        held: number of periods for which a twist is held before the robot brakes.
+        tests: number of tested poses in a period.
+    """
+
+    period: float
+    held: int
+    tests: int
+
+
+class Nearness(NamedTuple):
+    """How near a robot may come to an obstacle; see `ShieldSettings`, metres."""
+
+    margin: float
+    deeper: float
+    least: float
+
 
 @dataclass(frozen=True)
 class ShieldSettings:
@@ -46,9 +72,12 @@ class ShieldSettings:
         foresight: time for which an action is held before the robot brakes, seconds.
         margin: distance below which an obstacle counts as touched, metres.
         deeper: a robot that is nearer already may not come nearer by more than this, metres.
-        patience: time for which a robot that the shield holds waits, seconds; after it the margin
-            is lowered for as long by `give`, as noise may be what holds it.
+        patience: time for which a robot that the shield holds waits, seconds; after it `margin` and
+            `least` are lowered for as long by `give`, as noise may be what holds it.
         give: metres.
+        least: distance below which nothing may come nearer at all, metres; if negative, none is.
+        period: time for which a velocity holds, seconds; then the limits let it change.
+        tests: number of poses that are tested in each period.
     """
 
     foresight: Share = 0.2
@@ -56,6 +85,9 @@ class ShieldSettings:
     deeper: Length = 0.004
     patience: Share = 0.6
     give: Length = 0.02
+    least: Offset = -1.0
+    period: Share = 0.1
+    tests: Count = 1
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -94,7 +126,7 @@ class Shield:
             velocity: of the robot's centre.
         """
         robot, settings = self._robot, self._settings
-        margin = self._margin(velocity)
+        leniency = self._leniency(velocity)
         near = points_around(pose, points, REACH)
         wanted = np.array([action[0], action[1] if robot.holonomic else 0.0, action[-1]], float)
         order = np.argsort(np.abs(self._others - wanted).sum(axis=1), kind="stable")
@@ -105,22 +137,21 @@ class Shield:
             tried * (robot.max_speed, robot.max_sideways_speed, robot.max_turn_rate),
             velocity,
             (robot.max_acceleration, robot.max_acceleration, robot.max_turn_acceleration),
-            settings.foresight,
-            margin,
-            settings.deeper,
+            Lookahead(settings.period, round(settings.foresight / settings.period), settings.tests),
+            Nearness(settings.margin - leniency, settings.deeper, settings.least - leniency),
         )
         self._held = self._held + 1 if k < 0 or k >= len(_SHARES) else 0
         if k < 0:
             return np.zeros_like(action)
         return np.asarray(tried[k] if robot.holonomic else tried[k, [0, 2]], np.float32)
 
-    def _margin(self, velocity: Twist) -> float:
-        """The margin now: less for a while after the shield has held a robot that stands."""
-        settings, steps = self._settings, self._patience
+    def _leniency(self, velocity: Twist) -> float:
+        """By how much less is kept for a while, after the shield has held a robot that stands."""
+        steps = self._patience
         if self._held >= steps and max(map(abs, velocity)) < STANDING_SPEED:
             self._held, self._lenient = 0, steps
         self._lenient -= self._lenient > 0
-        return settings.margin - (settings.give if self._lenient else 0.0)
+        return self._settings.give if self._lenient else 0.0
 
 
 @kernel
@@ -130,9 +161,8 @@ def first_free(
     twists: FloatArray,
     velocity: Twist,
     limits: Twist,
-    foresight: float,
-    margin: float,
-    deeper: float,
+    ahead: Lookahead,
+    nearness: Nearness,
 ) -> int:
     """The first of some twists after which the robot can stop without touching anything.
 
@@ -142,9 +172,8 @@ def first_free(
         twists: that are wanted, of the axle, shape (m, 3).
         velocity: of the centre now.
         limits: largest accelerations forward, sideways and of the turn.
-        foresight: time for which a twist is held before the robot brakes, seconds.
-        margin: distance below which an obstacle counts as touched, metres.
-        deeper: by how much a robot may come nearer to an obstacle within the margin, metres.
+        ahead: which poses are tested.
+        nearness: how near the robot may come.
 
     Returns:
         Its index, or -1.
@@ -156,7 +185,7 @@ def first_free(
         near[p, 2] = max(abs(x) - body.half_length, abs(y) - body.half_width)
     for k in range(len(twists)):
         wanted = (twists[k, 0], twists[k, 1], twists[k, 2])
-        if stops_free(near, body, wanted, velocity, limits, foresight, margin, deeper):
+        if stops_free(near, body, wanted, velocity, limits, ahead, nearness):
             return k
     return -1
 
@@ -168,34 +197,55 @@ def stops_free(
     wanted: Twist,
     velocity: Twist,
     limits: Twist,
-    foresight: float,
-    margin: float,
-    deeper: float,
+    ahead: Lookahead,
+    nearness: Nearness,
 ) -> bool:
     """Whether a robot that holds a twist for a moment and then brakes touches nothing."""
     pose = (body.axle, 0.0, 0.0)
     forward, left, turn = velocity
     left += body.axle * turn  # of the axle, as are the twists that are wanted
-    held = round(foresight / PERIOD)
-    for step in range(60):
-        on = step < held
-        forward = towards(forward, wanted[0] if on else 0.0, limits[0] * PERIOD)
-        left = towards(left, wanted[1] if on else 0.0, limits[1] * PERIOD)
-        turn = towards(turn, wanted[2] if on else 0.0, limits[2] * PERIOD)
+    for step in range(MAX_PERIODS):
+        on = step < ahead.held
+        forward = towards(forward, wanted[0] if on else 0.0, limits[0] * ahead.period)
+        left = towards(left, wanted[1] if on else 0.0, limits[1] * ahead.period)
+        turn = towards(turn, wanted[2] if on else 0.0, limits[2] * ahead.period)
         if not on and max(abs(forward), abs(left), abs(turn)) < 1e-6:
             return True
-        move = Move(forward * PERIOD, left * PERIOD, turn * PERIOD)
+        move = Move(forward * ahead.period, left * ahead.period, turn * ahead.period)
+        for k in range(1, ahead.tests + 1):
+            at = moved(pose[0], pose[1], pose[2], move, k / ahead.tests)
+            if comes_too_near(near, body, at, nearness):
+                return False
         pose = moved(pose[0], pose[1], pose[2], move)
-        c, s = math.cos(pose[2]), math.sin(pose[2])
-        x, y = pose[0] - c * body.axle, pose[1] - s * body.axle
-        for p in range(len(near)):
-            dx, dy = near[p, 0] - x, near[p, 1] - y
-            aside = abs(c * dy - s * dx) - body.half_width
-            if aside < margin:
-                outside = max(abs(c * dx + s * dy) - body.half_length, aside)
-                if outside < margin and outside < near[p, 2] - deeper:
-                    return False
-    return True
+    return False
+
+
+@kernel
+def comes_too_near(near: FloatArray, body: BodyShape, axle: Pose, nearness: Nearness) -> bool:
+    """Whether the body, with its axle at a pose, is nearer to an obstacle than it may come.
+
+    Args:
+        near: obstacles, robot frame, and their distance from the body now, metres, shape (n, 3).
+        body: footprint.
+        axle: pose in the robot frame.
+        nearness: how near the robot may come.
+    """
+    c, s = math.cos(axle[2]), math.sin(axle[2])
+    x, y = axle[0] - c * body.axle, axle[1] - s * body.axle
+    for p in range(len(near)):
+        dx, dy = near[p, 0] - x, near[p, 1] - y
+        aside = abs(c * dy - s * dx) - body.half_width
+        if aside < nearness.margin:
+            outside = max(abs(c * dx + s * dy) - body.half_length, aside)
+            if outside < nearness.margin and outside < enough(near[p, 2], nearness):
+                return True
+    return False
+
+
+@kernel
+def enough(now: float, nearness: Nearness) -> float:
+    """Distance to which a robot may come from an obstacle within the margin, metres."""
+    return max(now - nearness.deeper, min(now, nearness.least))
 
 
 @kernel

@@ -7,7 +7,7 @@ import re
 
 from semnav_env.judge.episodes import Episode
 from semnav_env.judge.episodes.files import PLAN_SUFFIX, to_line
-from semnav_env.judge.episodes.fingerprint import fingerprint
+from semnav_env.judge.episodes.said import said_episode
 from semnav_env.world.maps import FloorPlan
 from semnav_env.world.maps.writer import to_geojson
 from semnav_scripts.page.drive import PageDrive
@@ -47,21 +47,11 @@ def _episode(drive: PageDrive) -> Episode:
     """The command of the last run as an episode, whose number is the seed."""
     if drive.said is None:
         raise ValueError("there is no episode yet; give a command first")
-    text, language, command = drive.said
     plan, scene = drive.floor_plan, drive.scene
     is_listed = scene.plan != OWN and not scene.boxes
-    episode = Episode(
-        id=f"page-{scene.seed:05d}",
-        floor_plan=scene.plan if is_listed else _file_name(plan),
-        plan_hash=plan.derived(fingerprint),
-        start=drive.start,
-        command=text,
-        language=language,
-        readings=(command.say(language),),
-        route=tuple((float(x), float(y)) for x, y in drive.env.judge.mission.route),
-        programs=(command,),
-    )
-    return episode.understood(plan.room_names)
+    named = scene.plan if is_listed else _file_name(plan), plan
+    route = drive.env.judge.mission.route
+    return said_episode(f"page-{scene.seed:05d}", named, drive.start, drive.said, route)
 
 
 def _file_name(plan: FloorPlan) -> str:

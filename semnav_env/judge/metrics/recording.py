@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_env.world.physics import World
+from semnav_features.door_passages import DoorPassage, PassableDoor, door_passages
 from semnav_features.frames import FloatArray, Pose, Twist
 from semnav_features.readers.log import DamageError
 from semnav_features.readers.npz_arrays import NpzArrays
@@ -95,6 +97,11 @@ class Recording:
         """Number of contacts that began."""
         touched = self.contacts > 0
         return int(touched[0]) + int(np.count_nonzero(touched[1:] & ~touched[:-1]))
+
+    def passages(self, doors: Iterable[PassableDoor]) -> tuple[DoorPassage, ...]:
+        """How the robot passed doorways, in the order of time."""
+        seconds = np.arange(len(self.poses), dtype=np.float64) * self.period
+        return door_passages(self.poses, seconds, doors)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write an .npz file; its suffix is added if the path has another one."""

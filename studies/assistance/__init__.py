@@ -1,0 +1,1 @@
+"""What assistance is worth to clumsy drivers, and what it costs good ones."""
