@@ -31,6 +31,7 @@ SEMNAV = CommandTable(
             "leaderboard": "make a table of agents from kept results",
             "train": "teach an agent, and keep what it learned",
             "bench": "time a step of the environment and its parts",
+            "completion": "print what lets bash, zsh or fish complete commands and options",
             "doctor": "check the installation, mend its cache, say what a bug report needs",
         }.items()
     },
