@@ -17,6 +17,7 @@ FIGURES = [
     "features_tables",
     "language",
     "leaderboard",
+    "licences",
     "lines",
     "logs",
     "mapping",
