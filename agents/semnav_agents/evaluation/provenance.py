@@ -126,8 +126,8 @@ def commit() -> str:
 
 
 def _git(folder: Path, *words: str) -> str:
-    """The output of git; empty if git fails or is not installed."""
-    command = ["git", "-C", str(folder), *words]
+    """The output of git, which writes nothing; empty if git fails or is not installed."""
+    command = ["git", "--no-optional-locks", "-C", str(folder), *words]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=False)
     except (OSError, subprocess.TimeoutExpired):
