@@ -25,6 +25,7 @@ FIGURES = [
     "offices",
     "page",
     "real_floor",
+    "report",
     "routes",
     "rules",
     "rules_table",

@@ -122,7 +122,9 @@ def commit() -> str:
     folder = Path(str(files(PACKAGE)))
     if not _git(folder, "ls-files", "--error-unmatch", "__init__.py"):
         return ""
-    return _git(folder, "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*")
+    head = _git(folder, "rev-parse", "--verify", "HEAD")
+    changed = _git(folder, "status", "--porcelain", "--untracked-files=no")
+    return f"{head}-dirty" if head and changed else head
 
 
 def _git(folder: Path, *words: str) -> str:

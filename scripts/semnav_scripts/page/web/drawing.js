@@ -26,12 +26,13 @@ export function drawKept(context, camera, scene, moment, { trail, route, goals, 
   begin(context, camera);
   drawFloor(scene.plan);
   drawSolids(scene.plan);
-  drawRoomNames(scene.plan.rooms);
   paint.setLineDash([7, 6]);
   line(route, "good", 2);
   paint.setLineDash([]);
   drawMoment(moment, scene, trail);
-  for (const door of scene.plan.doors) drawDoorName(door); // what failed is told by their names
+  const doors = new Set(scene.plan.doors.map(({ name }) => name)); // in their words is told what failed
+  for (const door of scene.plan.doors) drawDoorName(door);
+  drawRoomNames(scene.plan.rooms.filter(({ name }) => !doors.has(name)));
   goals.forEach((at, index) => drawMark(index + 1, at, "good"));
   if (aim) drawMark("★", aim, "goal");
   for (const at of touched) drawMark("×", at, "hit");
