@@ -93,7 +93,11 @@ class Arguments:
             kept = read_kept_result(Path(file), which, self.episodes)
             if self.robot is not None:
                 raise ValueError(f"--robot is for episodes; this result is of {kept.setup.robot}")
-            return kept, replace(kept.setup, agent=self.agent or kept.setup.agent), kept.job
+            return (
+                kept,
+                replace(kept.setup, agent=self.agent or _bundled(kept.setup.agent)),
+                kept.job,
+            )
         if self.episodes is not None:
             raise ValueError("--episodes is for results; give the file before the id: FILE:ID")
         if Path(file).is_file() and not which:
@@ -119,6 +123,18 @@ class Arguments:
                 film.save(self.out, self.width / FULL_WIDTH)
         env.close()
         return job.result(driven)
+
+
+def _bundled(agent: object) -> str:
+    """The agent that a file names, if that runs no code which the reader does not expect.
+
+    Raises:
+        ValueError: it is a class of some module.
+    """
+    name = str(agent)
+    if ":" in name:
+        raise ValueError(f"this result is of {name!r:.80}, which is no bundled agent; give --agent")
+    return name
 
 
 def _watch(env: SemNavEnv, film: Film | None, bar: WorkBar) -> Watch:

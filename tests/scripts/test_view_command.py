@@ -181,6 +181,7 @@ def test_a_row_that_cannot_be_driven_again_is_refused(
         (["test_rael-00000"], "no split 'test_rael'"),
         (["test_real-00000", "--episodes", "x.jsonl"], "--episodes is for results"),
         (["{done}"], "nothing failed there"),
+        (["{code}"], "of 'antigravity:fly', which is no bundled agent; give --agent"),
         (["{text}"], "is no JSON"),
     ],
 )
@@ -189,6 +190,7 @@ def test_what_is_no_kept_run_is_refused_in_one_line(
 ) -> None:
     files = {
         "rows": rows(tmp_path / "rows.jsonl", TRIAL),
+        "code": rows(tmp_path / "code.jsonl", TRIAL | {"agent": "antigravity:fly"}),
         "done": rows(tmp_path / "done.jsonl", TRIAL | {"success": True}),
         "text": tmp_path / "text.jsonl",
     }
