@@ -78,11 +78,11 @@ types: $(VENV)/.test
 docs: $(VENV)/.docs
 	$(BIN)/sphinx-build -W -b html docs docs/_build/html
 
-# For the tests of the page in a real browser (tests/scripts/test_page_in_browser.py): Debian's.
+# For the tests of both pages in a real browser (tests/scripts/test_*_in_browser.py): Debian's.
 browser: $(VENV)/.test
 	apt-get install -y chromium
 	$(BIN)/pip install -q -c constraints.txt playwright axe-playwright-python
-	$(BIN)/python -m pytest -q tests/scripts/test_page_in_browser.py
+	$(BIN)/python -m pytest -q tests/scripts/test_page_in_browser.py tests/scripts/test_report_in_browser.py
 
 $(VENV)/.demo: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)

@@ -26,6 +26,7 @@ from semnav_env.robots.actions import Actions
 from semnav_env.rules import Rules, with_doors_of
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics, PlanSource
 from semnav_env.world.maps import FloorPlan
+from semnav_env.world.physics import World
 from semnav_env.world.simulator import OdometrySettings, RobotSetup, Simulator, odometry_settings
 from semnav_features import ExtractorSettings
 from semnav_features.frames import ORIGIN
@@ -128,6 +129,28 @@ class SemNavEnv(GymnasiumEnv[Any]):
     ## References
     CITATION.cff names the works that features, grounding and poses before doors build on.
     """
+
+    rules: Rules
+    extractor: ExtractorSettings
+    corrects_drift: bool
+    rewards: tasks.Rewards
+    payload: Payload | None
+    episode_source: tasks.EpisodeSource
+    observation_type: ObservationType
+    usual: RobotSetup
+    plan_source: PlanSource
+    floor_plan: FloorPlan
+    setup: RobotSetup
+    robot: RobotSpec
+    lidar_spec: LidarSpec
+    simulator: Simulator
+    world: World
+    renderer: Renderer
+    tracker: BeliefTracker
+    judge: Judge
+    instruction: str
+    tokens: NDArray[np.int64]
+    loop: RobotLoop
 
     @takes_plain_settings
     def __init__(

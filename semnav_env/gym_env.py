@@ -67,6 +67,8 @@ class GymnasiumEnv(gym.Env[ObservationT, NDArray[np.float32]], Generic[Observati
         max_steps: number of steps after which an episode is truncated.
     """
 
+    max_steps: int
+    thread_door: ThreadDoor
     metadata = {"render_modes": ["rgb_array", "human"], "render_fps": 15}  # noqa: RUF012
     _started = False
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from semnav_agents.scripted import ScriptedTeam
 from semnav_env.bench.brute_force import compiled_scan
-from semnav_env.bench.timing import Part, Timing, timings
+from semnav_env.bench.timing import Part
 from semnav_env.judge.episodes import Episode, evenly, load_episodes
 from semnav_env.vector import SemNavVectorEnv
 
@@ -21,21 +21,20 @@ MAX_SECONDS = 300.0
 """Time limit of an episode, simulated seconds."""
 
 
-def agent_timings(robot: str, episodes: str, robots: int, runs: int, steps: int) -> list[Timing]:
-    """Time decisions of the scripted agent and steps of its environment; a compiled scan first.
+def agent_parts(robot: str, episodes: str, robots: int, steps: int) -> list[Part]:
+    """Decisions of the scripted agent and steps of its environment; a compiled scan first.
 
     Args:
         robot: name of the body.
         episodes: name of the split that is driven, or path of a file.
         robots: in the larger team.
-        runs: how often each part is timed; the median counts.
         steps: decisions in a timing, about.
     """
     found = evenly(load_episodes(episodes), min(64, len(load_episodes(episodes))))
     parts = [compiled_scan(time.process_time)]
     for count in dict.fromkeys((1, robots)):
         parts += _Drives(robot, count, found).parts(max(1, steps // count))
-    return timings(parts, runs)
+    return parts
 
 
 class _Drives:

@@ -58,6 +58,8 @@ class DemonstrationFile:
         BlockingIOError: another run is writing it.
     """
 
+    folder: Path
+
     def __init__(self, out: str, env: SemNavEnv, agent: str, rounds: bool = False) -> None:
         try:
             import h5py  # noqa: F401 - Minari fails late without it

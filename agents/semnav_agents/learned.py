@@ -63,6 +63,10 @@ class LearnedAgent:
     """
 
     observation = "all"
+    policy: Policy
+    robots: tuple[str, ...]
+    repeat: int
+    shielded: bool
 
     def __init__(
         self, policy: Policy, robots: tuple[str, ...], repeat: int, shielded: bool = True

@@ -59,7 +59,7 @@ class OracleAgent:
     draw, people above all, it sees with the lidar if the observation has a scan, and waits for it.
     """
 
-    observation = EntryObservation("truth", extra=(ExactScan(), PaceEntry()))
+    observation: EntryObservation = EntryObservation("truth", extra=(ExactScan(), PaceEntry()))
 
     def __init__(self) -> None:
         self._told: FloorPlan | None = None

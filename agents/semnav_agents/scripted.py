@@ -113,7 +113,7 @@ class ScriptedAgent:
     `ScriptedTeam` of one.
     """
 
-    observation = ScriptedTeam.observation
+    observation: EntryObservation = ScriptedTeam.observation
 
     def __init__(self) -> None:
         self._team = ScriptedTeam(1)

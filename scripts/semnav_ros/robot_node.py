@@ -74,6 +74,8 @@ class RobotNode:
         ValueError: no such robot, agent or language, or a mount that is not on the body.
     """
 
+    counts: Counts
+
     def __init__(
         self,
         robot: str | RobotSpec = "wheelchair",

@@ -10,10 +10,17 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from semnav_env.bench.suite import benchmark, growth, starting, training
-from semnav_env.bench.timing import Timing
+from semnav_env.bench.suite import (
+    growth_parts,
+    start_up_parts,
+    training_parts,
+    usual_parts,
+    with_compilation,
+)
+from semnav_env.bench.timing import Part, Timing, timings
 from semnav_env.world.maps import load_floor_plan
 from semnav_features.validation import check_count
+from semnav_scripts.progress import work_bar
 
 
 @dataclass(frozen=True)
@@ -74,21 +81,29 @@ class Arguments:
         return 0
 
     def _measured(self) -> list[Timing]:
-        if self.start:
-            return starting(self.runs, self.cold)
-        if self.agents:
-            from semnav_agents.bench import agent_timings  # the environment alone needs no agent
+        parts = self._parts()
+        with work_bar("timing") as bar:
+            found = timings(parts, self.runs, bar.show)
+            if self.cold:
+                bar.show("compiling all kernels", None)
+                found = with_compilation(found)
+        return found
 
-            split = self.episodes or "val_unseen"
-            return agent_timings(self.robot, split, self.robots, self.runs, self.steps)
+    def _parts(self) -> list[Part]:
+        if self.start:
+            return start_up_parts()
+        if self.agents:
+            from semnav_agents.bench import agent_parts  # the environment alone needs no agent
+
+            return agent_parts(self.robot, self.episodes or "val_unseen", self.robots, self.steps)
         plan = load_floor_plan(self.map)
         kind: dict[str, Any] = {"robot": self.robot, "observation": self.observation}
         if self.growth:
-            return growth(plan, self.threads, self.runs, self.steps, **kind)
-        counts = (self.robots, self.threads, self.runs, self.steps)
+            return growth_parts(plan, self.threads, self.steps, **kind)
+        counts = (self.robots, self.threads, self.steps)
         if self.episodes is not None:
-            return training(self.episodes, *counts, floor_plan=plan, **kind)
-        return benchmark(*counts, floor_plan=plan, **kind)
+            return training_parts(self.episodes, *counts, floor_plan=plan, **kind)
+        return usual_parts(*counts, floor_plan=plan, **kind)
 
 
 def _rate(per_second: float) -> str:

@@ -23,7 +23,7 @@ from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_scripts.arguments import parse_pose
 from semnav_scripts.asking import asking
 from semnav_scripts.outputs import check_file
-from semnav_scripts.progress import tracked
+from semnav_scripts.progress import share_driven, tracked, work_bar
 
 DEFAULT_MAP = "heidelberg_hallway"
 """The default floor plan."""
@@ -111,7 +111,9 @@ class Arguments:
         observation, start = env.reset(seed=told.seed, options=told.options)
         info: dict[str, Any] = {}
         driven = tracked(
-            steps(env, agent, observation, start), lambda _: f"{env.seconds:.0f} s", lambda: None
+            steps(env, agent, observation, start),
+            lambda _: f"{env.seconds:.0f} s",
+            lambda: share_driven(env.judge),
         )
         for step in driven:
             info = step.info
@@ -199,7 +201,8 @@ class Arguments:
         from semnav_env.rendering.video import save_png
 
         if self.save is not None:
-            film.save(self.save)
+            with work_bar(f"writing {self.save.name}"):
+                film.save(self.save)
         if self.picture is not None:
             save_png(self.picture, film.frames[-1])
 

@@ -31,12 +31,15 @@ from semnav_agents.evaluation.runner import JOBS_OF_A_SHARE
 from semnav_agents.learned import agent_label
 from semnav_env.judge.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.rendering.backend import load_pygame
+from semnav_env.rendering.video import check_suffix
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_features.lidars import TIM561, lidar_spec
 from semnav_scripts.evaluation_tables import commands_table, headings, measures_table
 from semnav_scripts.jsonl import JsonLines
-from semnav_scripts.outputs import check_file, check_folder, counted
+from semnav_scripts.outputs import check_distinct, check_file, check_folder, counted
 from semnav_scripts.progress import tracked
+from semnav_scripts.report.gallery import without_excess
+from semnav_scripts.report.html_report import save_report
 
 USUAL_SEEDS = 20
 """Default number of seeds of a suite."""
@@ -65,6 +68,7 @@ class Arguments:
         recheck: judge every path a second time with Shapely, and count disagreements.
         pictures: folder for a picture of each failure.
         films: folder for a film (.gif) of each failure, which is driven a second time for it.
+        html: report to write (.html): the tables, and why episodes failed, with their drives.
         dynamics: people, doors and furniture that move.
         out: file for the episodes, one JSON object in each line, written as they are driven. Until
             the end or an interruption this file is `.NAME-....part.jsonl` beside the target.
@@ -82,6 +86,7 @@ class Arguments:
     recheck: bool = False
     pictures: Path | None = None
     films: Path | None = None
+    html: Path | None = None
     dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
     out: Path | None = None
     json: bool = False
@@ -97,28 +102,41 @@ class Arguments:
         if self.episodes is not None and self.episodes < 1:
             raise ValueError(f"--episodes is {self.episodes}; it must be at least 1")
         lidar_spec(self.lidar)  # says at once if there is none of that name
-        check_file(self.out, "--out")
-        check_folder(self.pictures, "--pictures")
-        check_folder(self.films, "--films")
-        if self.films is not None:
-            load_pygame()  # says at once where it is missing
+        self._check_outputs()
         trials = self._trials()
         if any(isinstance(t, Episode) and t.expected is Expected.AMBIGUOUS for t in trials):
             return self._ask([trial for trial in trials if isinstance(trial, Episode)])
         seeds = range(first, first + count)
         total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
-        extras = Extras(self.recheck, self.pictures, self.films)
+        extras = Extras(self.recheck, self.pictures, self.films, keep=self.html is not None)
         workers = self.workers or min(os.cpu_count() or 1, -(-total // JOBS_OF_A_SHARE))
         how = workers, extras, self.dynamics, self.lidar
         who = self._who()
-        results = self._drive(run_suite(trials, self.agent, self.robot, seeds, *how), total, who)
+        driven = without_excess(run_suite(trials, self.agent, self.robot, seeds, *how))
+        results = self._drive(driven, total, who)
         groups = list(dict.fromkeys(trial.group for trial in trials))
         if isinstance(trials[0], Episode):
             groups.sort()
-        self._show([_summary(group, results) for group in groups], results, who)
-        if self.out is not None and not self.json:
-            print(f"wrote {self.out}")
+        summaries, everything = [_summary(g, results) for g in groups], summarise("all", results)
+        if self.html is not None:
+            save_report(self.html, who, summaries, everything, results)
+        self._show(summaries, everything, results, who)
+        for written in (self.out, self.html):
+            if written is not None and not self.json:
+                print(f"wrote {written}")
         return 0
+
+    def _check_outputs(self) -> None:
+        """Refuse bad paths before the drives, which take a while."""
+        check_file(self.out, "--out")
+        check_file(self.html, "--html")
+        check_distinct({"--out": self.out, "--html": self.html})
+        if self.html is not None:
+            check_suffix(self.html, (".html",))
+        check_folder(self.pictures, "--pictures")
+        check_folder(self.films, "--films")
+        if self.films is not None:
+            load_pygame()  # says at once where it is missing
 
     def _who(self) -> dict[str, Any]:
         """Fields of every row: agent, split, body, version, rules, and what is not as usual."""
@@ -157,6 +175,8 @@ class Arguments:
 
     def _ask(self, episodes: Sequence[Episode]) -> int:
         """Count the ambiguous commands whose readings the grammar finds."""
+        if self.html is not None:
+            raise ValueError("--html shows drives; these commands are only read")
         wrong = {episode: cause for episode in episodes if (cause := misreading(episode))}
         right = len(episodes) - len(wrong)
         failures = [
@@ -169,8 +189,13 @@ class Arguments:
         print("\n".join([said, *failures]))
         return 0
 
-    def _show(self, summaries: list[Summary], results: list[Result], who: dict[str, Any]) -> None:
-        everything = summarise("all", results)
+    def _show(
+        self,
+        summaries: list[Summary],
+        everything: Summary,
+        results: list[Result],
+        who: dict[str, Any],
+    ) -> None:
         if self.json:
             print(json.dumps([who | summary.row() for summary in (*summaries, everything)]))
             return

@@ -6,6 +6,7 @@ import json
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Literal
 
@@ -20,6 +21,7 @@ from semnav_env.language.corpora import (
     verdicts,
 )
 from semnav_env.language.translating.network import TRAINED_FOLDER
+from semnav_scripts.progress import tracked
 
 HELD_OUT = Path("studies/corpora/held_out")
 """Folder of the sets of which nothing was learned, from the root of a checkout."""
@@ -47,11 +49,14 @@ class Arguments:
 
     def run(self) -> int:
         """Judge every sentence, and print the counts."""
-        found = [
-            verdict
-            for path in self._files()
-            for verdict in verdicts(load_sentences(path), self._understood, self.language)
-        ]
+        corpora = [load_sentences(path) for path in self._files()]
+        total = sum(map(len, corpora))
+        judged = (verdicts(each, self._understood, self.language) for each in corpora)
+        found: list[SentenceVerdict] = []
+        for verdict in tracked(
+            chain.from_iterable(judged), lambda n: f"{n} sentences", lambda: len(found) / total
+        ):
+            found.append(verdict)
         counts: defaultdict[tuple[str, str], Count] = defaultdict(Count)
         for verdict in found:
             sentence = verdict.sentence

@@ -43,34 +43,49 @@ def headings(who: Mapping[str, Any], everything: Summary) -> Iterator[str]:
         yield f"{SHOWN_MEASURES[name]} {mean:.3f} (95 % interval {interval}, Wilson)"
 
 
-def commands_table(summaries: Sequence[Summary]) -> Table:
-    """A row for each command; numbers come first, so that only the words wrap in narrow windows."""
-    table = Table("n", box=None, padding=(0, 1, 0, 0))
-    for name, heading in SHOWN_MEASURES.items():
-        table.add_column(heading, width=7, justify="right")
-        if name == "success":
-            table.add_column("95 %", width=9)
-    table.add_column("command")
+def command_cells(summaries: Sequence[Summary]) -> list[tuple[str, ...]]:
+    """The table of commands: a row of headings, then one for each command, which is named last."""
+    names = (heading for heading in SHOWN_MEASURES.values())
+    rows: list[tuple[str, ...]] = [("n", next(names), "95 %", *names, "command")]
     for row in summaries:
         first, *others = (_written(row.means[name]) for name in SHOWN_MEASURES)
         low, high = row.intervals["success"]
-        table.add_row(str(row.episodes), first, f"{low:.2f}-{high:.2f}", *others, row.name)
+        rows.append((str(row.episodes), first, f"{low:.2f}-{high:.2f}", *others, row.name))
+    return rows
+
+
+def measure_cells(everything: Summary) -> list[tuple[str, ...]]:
+    """The table of measures: headings, then for each its mean and that of its worst episodes."""
+    shares = (f"worst {share:.0%}" for share in WORST_SHARES)
+    rows: list[tuple[str, ...]] = [("all episodes", "mean", *shares)]
+    for name, mean in everything.means.items():
+        worst = (_written(row[name]) for row in everything.worst)
+        heading = SHOWN_MEASURES.get(name, name.replace("_", " "))
+        rows.append((heading, _written(mean), *worst))
+    return rows
+
+
+def commands_table(summaries: Sequence[Summary]) -> Table:
+    """A row for each command; numbers come first, so that only the words wrap in narrow windows."""
+    (count, *measures, command), *rows = command_cells(summaries)
+    table = Table(count, box=None, padding=(0, 1, 0, 0))
+    for heading in measures:
+        is_interval = heading == "95 %"
+        table.add_column(
+            heading, width=9 if is_interval else 7, justify="left" if is_interval else "right"
+        )
+    table.add_column(command)
+    for row in rows:
+        table.add_row(*row)
     return table
 
 
 def measures_table(everything: Summary) -> Table:
     """Every measure over all episodes: its mean, and its mean over its worst episodes."""
-    table = Table(
-        "all episodes",
-        "mean",
-        *(f"worst {share:.0%}" for share in WORST_SHARES),
-        box=None,
-        padding=(0, 2, 0, 0),
-    )
-    for name, mean in everything.means.items():
-        worst = (_written(row[name]) for row in everything.worst)
-        heading = SHOWN_MEASURES.get(name, name.replace("_", " "))
-        table.add_row(heading, _written(mean), *worst)
+    names, *rows = measure_cells(everything)
+    table = Table(*names, box=None, padding=(0, 2, 0, 0))
+    for row in rows:
+        table.add_row(*row)
     return table
 
 

@@ -6,7 +6,7 @@ import json
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import Literal
 
@@ -121,11 +121,15 @@ class Arguments:
 
     def _of_agent(self, name: str, episodes: Sequence[Episode]) -> tuple[DoorPassage, ...]:
         """The passages of an agent over all episodes."""
-        found: list[DoorPassage] = []
-        done = iter(self._driven(name, episodes))
-        for passages in tracked(done, lambda n: f"{name}: {n} of {len(episodes)}", lambda: None):
-            found += passages
-        return tuple(found)
+        found: list[tuple[DoorPassage, ...]] = []
+        total = len(episodes)
+        for passages in tracked(
+            self._driven(name, episodes),
+            lambda n: f"{name}: {n} of {total}",
+            lambda: len(found) / total,
+        ):
+            found.append(passages)
+        return tuple(chain.from_iterable(found))
 
     def _driven(self, name: str, episodes: Sequence[Episode]) -> Iterator[tuple[DoorPassage, ...]]:
         agent = make_agent(name)

@@ -28,9 +28,11 @@ SEMNAV = CommandTable(
             "episodes": "list, check and generate frozen episodes, import others, buildings",
             "evaluate": "measure an agent on a suite of commands",
             "evaluate language": "count how much of people's commands is understood",
+            "view": "see a kept result or episode again, or write it as a film or picture",
             "leaderboard": "make a table of agents from kept results",
             "train": "teach an agent, and keep what it learned",
             "bench": "time a step of the environment and its parts",
+            "completion": "print what lets bash, zsh or fish complete commands and options",
             "doctor": "check the installation, mend its cache, say what a bug report needs",
         }.items()
     },

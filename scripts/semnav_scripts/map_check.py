@@ -12,6 +12,7 @@ from semnav_env.robots import robot_spec
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.check import check
 from semnav_features.plot import check_suffix
+from semnav_scripts.progress import work_bar
 
 
 @dataclass(frozen=True)
@@ -35,7 +36,8 @@ class Arguments:
         if self.plot:
             check_suffix(self.plot)
         plan, robot = load_floor_plan(self.plan), robot_spec(self.robot)
-        faults = check(plan, robot)
+        with work_bar(f"looking for faults of {plan.name}"):
+            faults = check(plan, robot)
         if self.plot:
             from semnav_env.world.maps.draw import save_picture
 

@@ -15,6 +15,7 @@ from semnav_env.world.maps.check import check
 from semnav_env.world.maps.importers import Drawing, Tracing, import_map
 from semnav_features.plot import check_suffix
 from semnav_scripts.outputs import check_distinct
+from semnav_scripts.progress import work_bar
 
 MAX_FAULTS = 12
 """The most faults that are printed; the picture lists all."""
@@ -59,15 +60,17 @@ class Arguments:
             check_suffix(picture)
         outputs = {"--out": self.out, "--picture": picture}
         check_distinct({"the map": self.source, **outputs})
-        plan, report = import_map(self.source, self.resolution, self.tracing, self.drawing)
-        for read in report.source:  # a .yaml file names its image
-            check_distinct({"the map": Path(read), **outputs})
-        save_floor_plan(plan, self.out)
-        faults = check(plan, robot)
-        if picture:
-            from semnav_env.world.maps.draw import save_picture
+        with work_bar(f"reading {self.source.name}") as bar:
+            plan, report = import_map(self.source, self.resolution, self.tracing, self.drawing)
+            for read in report.source:  # a .yaml file names its image
+                check_distinct({"the map": Path(read), **outputs})
+            save_floor_plan(plan, self.out)
+            bar.show("looking for faults", None)
+            faults = check(plan, robot)
+            if picture:
+                from semnav_env.world.maps.draw import save_picture
 
-            save_picture(plan, picture, faults=faults)
+                save_picture(plan, picture, faults=faults)
         if self.json:
             rows = [asdict(fault) for fault in faults]
             files = {"out": str(self.out), "picture": str(picture) if picture else None}

@@ -10,6 +10,7 @@ from rich.console import Console
 
 from semnav_agents.hearing.presets import HEARING_PRESETS
 from semnav_scripts.dispatch import exit_code_of
+from semnav_scripts.progress import tracked
 
 
 def train_hearing(name: str, folder: Path, seed: int, minutes: float | None) -> int:
@@ -27,16 +28,23 @@ def train_hearing(name: str, folder: Path, seed: int, minutes: float | None) -> 
         raise ImportError(f'training needs {error.name}: pip install "semnav-env[rl]"') from None
     trainer = HearingTrainer(HEARING_PRESETS[name], folder, seed)
     console, start = Console(stderr=True), time.monotonic()
-    rows, code = trainer.advance(), 0
+    total, code = trainer.steps, 0
+
+    def done() -> int:
+        return len(trainer.card.curve)
+
+    rows = tracked(
+        trainer.advance(), lambda _: f"{done()} of {total} steps", lambda: done() / total
+    )
     try:
         for row in rows:
-            console.print(_line(row, len(trainer.card.curve), trainer.steps), highlight=False)
+            console.print(_line(row, done(), total), highlight=False)
             if minutes is not None and time.monotonic() - start > 60.0 * minutes:
                 break
     except KeyboardInterrupt as stop:
         code = exit_code_of(stop)
-    done = f"{len(trainer.card.curve)} of {trainer.steps} steps; saved in {folder}"
-    print(f"interrupted; {done}; go on with --resume" if code else done)
+    ending = f"{done()} of {total} steps; saved in {folder}"
+    print(f"interrupted; {ending}; go on with --resume" if code else ending)
     return code
 
 

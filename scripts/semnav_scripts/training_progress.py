@@ -9,10 +9,11 @@ from contextlib import contextmanager
 from datetime import timedelta
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
+from rich.progress import Progress
 
 from semnav_agents.learning.reports import Preparation, TrainingReport, TrainingState
 from semnav_agents.learning.session import SessionProgress
+from semnav_scripts.progress import progress_display
 
 LINES_A_PHASE = 10
 """Lines in a log file for each phase of the preparation."""
@@ -56,13 +57,7 @@ class TrainingDisplay:
 def training_display() -> Iterator[TrainingDisplay]:
     """The display of a session that begins now; on a terminal with a bar."""
     console = Console(stderr=True)
-    columns = (BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    bar = Progress(
-        TextColumn("{task.description}"),
-        *columns,
-        console=console,
-        disable=not console.is_terminal,
-    )
+    bar = progress_display(console, disable=not console.is_terminal)
     with bar:
         yield TrainingDisplay(console, bar)
 

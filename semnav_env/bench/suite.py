@@ -1,4 +1,4 @@
-"""The measurements of one run of `semnav bench`."""
+"""What one run of `semnav bench` measures: parts, the yardstick first, for `timings`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from semnav_env.bench.peers import peer_parts
 from semnav_env.bench.plans import repeated
 from semnav_env.bench.single import kernel_parts, step_parts, training_step_part
 from semnav_env.bench.start_up import compile_seconds, start_parts
-from semnav_env.bench.timing import Timing, timings
+from semnav_env.bench.timing import Part, Timing
 from semnav_env.bench.vector import training_part, vector_part
 from semnav_env.env import SemNavEnv
 from semnav_env.world.maps import FloorPlan
@@ -26,13 +26,12 @@ TRAINING_LENGTH = 10
 """A timing of steps with resets has so many times as many steps: each needs ends of episodes."""
 
 
-def benchmark(robots: int, threads: int, runs: int, steps: int, **options: Any) -> list[Timing]:
-    """Time steps, their parts, a reset, and peers that are installed; the yardstick first.
+def usual_parts(robots: int, threads: int, steps: int, **options: Any) -> list[Part]:
+    """Steps, their parts, a reset, and peers that are installed.
 
     Args:
         robots: in the vector environment.
         threads: most threads to drive them in.
-        runs: how often each part is timed; the median counts.
         steps: calls in a timing.
         options: of `SemNavEnv`.
     """
@@ -42,12 +41,11 @@ def benchmark(robots: int, threads: int, runs: int, steps: int, **options: Any) 
     parts = [yardstick(), yardstick_alone(), step, *vector, *kernel_parts(steps, **options), reset]
     env = SemNavEnv(**options)
     env.reset(seed=0)
-    parts += peer_parts(env.floor_plan, env.robot, env.lidar_spec, env.world.pose)
-    return timings(parts, runs)
+    return parts + peer_parts(env.floor_plan, env.robot, env.lidar_spec, env.world.pose)
 
 
-def growth(plan: FloorPlan, threads: int, runs: int, steps: int, **options: Any) -> list[Timing]:
-    """Time how a step grows with the building, the beams and the robots; the yardstick first.
+def growth_parts(plan: FloorPlan, threads: int, steps: int, **options: Any) -> list[Part]:
+    """Steps among more and more walls, beams and robots.
 
     Copies are added beside the building, so the surroundings of the robot stay the same.
     """
@@ -61,25 +59,18 @@ def growth(plan: FloorPlan, threads: int, runs: int, steps: int, **options: Any)
         parts.append(step._replace(name=f"step, {beams} beams"))
     for count in range(1, threads + 1):
         parts += [vector_part(steps, n, count, floor_plan=plan, **options) for n in ROBOTS]
-    return timings(parts, runs)
+    return parts
 
 
-def training(
-    episodes: str,
-    robots: int,
-    threads: int,
-    runs: int,
-    steps: int,
-    floor_plan: FloorPlan,
-    **options: Any,
-) -> list[Timing]:
-    """Time steps on a split, resets included, each after the plain step; the yardstick first.
+def training_parts(
+    episodes: str, robots: int, threads: int, steps: int, floor_plan: FloorPlan, **options: Any
+) -> list[Part]:
+    """Steps on a split, resets included, each after the plain step.
 
     Args:
         episodes: name of the split, or path of a file.
         robots: in the vector environment.
         threads: most threads to drive them in.
-        runs: how often each part is timed; the median counts.
         steps: calls in a timing of the plain step; of `TRAINING_LENGTH` times as many in training.
         floor_plan: of the plain step.
         options: of `SemNavEnv`.
@@ -90,22 +81,19 @@ def training(
     for count in range(1, threads + 1):
         parts.append(vector_part(steps, robots, count, floor_plan=floor_plan, **options))
         parts.append(training_part(longer, robots, count, episodes, **options))
-    return timings(parts, runs)
+    return parts
 
 
-def starting(runs: int, cold: bool) -> list[Timing]:
-    """Processor time of starts; the yardstick first.
+def start_up_parts() -> list[Part]:
+    """Starts of processes, processor time."""
+    return [yardstick(), *start_parts()]
 
-    Args:
-        runs: how often each part is timed; the median counts.
-        cold: also compile all kernels, once, into an empty folder.
-    """
-    found = timings([yardstick(), *start_parts()], runs)
-    if cold:
-        taken = 1e6 * compile_seconds()
-        name = "compiling all kernels, processor time"
-        found.append(Timing(name, taken, found[0].microseconds / taken))
-    return found
+
+def with_compilation(found: list[Timing]) -> list[Timing]:
+    """The timings, and that of compiling all kernels once into an empty folder."""
+    taken = 1e6 * compile_seconds()
+    name = "compiling all kernels, processor time"
+    return [*found, Timing(name, taken, found[0].microseconds / taken)]
 
 
 def with_beams(beams: int) -> LidarSpec:

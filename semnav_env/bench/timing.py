@@ -6,6 +6,7 @@ import gc
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import count
 from statistics import median
 from typing import NamedTuple
 
@@ -42,18 +43,28 @@ class Timing:
         return 1e6 / self.microseconds
 
 
-def timings(parts: Sequence[Part], runs: int) -> list[Timing]:
+def timings(
+    parts: Sequence[Part], runs: int, tell: Callable[[str, float], None] = lambda name, share: None
+) -> list[Timing]:
     """Time parts in turn, after one call of each; the first one is the yardstick.
 
     Args:
         parts: to time.
         runs: how often each part is timed; the median counts.
+        tell: is told each part before it is timed, and the share of all calls that are done.
     """
+    calls = len(parts) * (runs + 1)
+    done = count()
+
+    def timed(part: Part) -> float:
+        tell(part.name, next(done) / calls)
+        return part.seconds()
+
     for part in parts:
-        part.seconds()
+        timed(part)
     gc.collect()
     gc.freeze()  # what stands is not searched for garbage again and again
-    rounds = [[part.seconds() for part in parts] for _ in range(runs)]
+    rounds = [[timed(part) for part in parts] for _ in range(runs)]
     gc.unfreeze()
     seconds = [median(column) for column in zip(*rounds, strict=True)]
     return [

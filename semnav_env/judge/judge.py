@@ -42,6 +42,8 @@ class Judge:
         ValueError: a house is to be searched without a payload.
     """
 
+    leading: ReadingJudge
+
     def __init__(
         self, mission: Mission, payload: Payload | None = None, *, measures_way: bool = True
     ) -> None:

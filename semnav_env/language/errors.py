@@ -25,6 +25,12 @@ class CommandError(ValueError):
         hint: advice on what to say instead.
     """
 
+    problem: str
+    text: str
+    position: int | None
+    length: int
+    hint: str | None
+
     def __init__(
         self,
         problem: str,

@@ -146,6 +146,8 @@ class AmbiguousCommandError(CommandError):
         question: what is open, and how it is settled.
     """
 
+    question: Question
+
     def __init__(self, text: str, question: Question) -> None:
         apart = differences(question.readings, question.language)
         shown = " / ".join(f"'{each}'" if '"' in each else f'"{each}"' for each in apart)

@@ -40,6 +40,15 @@ class PersonSearch:
             each false report.
     """
 
+    settings: PersonDetectorSettings
+    map_settings: PersonMapSettings
+    rules: SearchRules
+    detector: PersonDetector
+    people: PersonMap
+    coverage: RoomCoverage
+    gained: float
+    reported: int
+
     def __init__(
         self,
         detector: PersonDetectorSettings = PersonDetectorSettings(),

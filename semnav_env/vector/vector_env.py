@@ -60,6 +60,10 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         ValueError: as `SemNavEnv`; or the environments' spaces or control rates differ.
     """
 
+    envs: list[TeamMember]
+    thread_door: ThreadDoor
+    autoreset_mode: AutoresetMode
+
     def __init__(
         self,
         num_envs: int = 1,
@@ -72,7 +76,7 @@ class SemNavVectorEnv(VectorEnv[Any, Arrays, Arrays]):
         **options: Any,
     ) -> None:
         # Gymnasium 1.2 also closes what was never made.
-        self.envs: list[TeamMember] = []
+        self.envs = []
         self._team: Team | None = None
         self.thread_door = ThreadDoor()
         check_count("num_envs", num_envs)

@@ -70,6 +70,7 @@ ABOUT = {
     "semnav_ros": "a robot's own node: its core without ROS, and what carries its messages",
     "semnav_scripts": "the `semnav` command",
     "semnav_scripts/page": "the page of `semnav serve`: requests, sessions, server, web files",
+    "semnav_scripts/report": "the report of an evaluation: one HTML file, with its failures",
     "semnav_scripts/recording": "recordings of a followed command, for Rerun and Foxglove",
 }
 

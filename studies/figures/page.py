@@ -41,10 +41,10 @@ def main() -> None:
         page = browser.new_page(viewport=SIZE, color_scheme="light")
         page.goto(address.replace("ws:", "http:") + ASKED)
         _look_at_a_run(page)
-        _keep(page, "page.png")
+        keep(page, "page.png")
         with tempfile.TemporaryDirectory() as folder:
             _draw(page, Path(folder))
-        _keep(page, "board.png")
+        keep(page, "board.png")
         browser.close()
 
 
@@ -105,7 +105,8 @@ def _gesture(page: Any, tool: str, name: str, *places: tuple[float, float]) -> N
     expect(page.locator("#part-name")).to_have_value("", timeout=60_000)
 
 
-def _keep(page: Any, name: str) -> None:
+def keep(page: Any, name: str) -> None:
+    """Write what a browser shows as a picture of few colours."""
     path = IMAGES / name
     page.screenshot(path=path)
     Image.open(path).quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)

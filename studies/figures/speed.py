@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from semnav_env.bench.suite import growth
-from semnav_env.bench.timing import Timing
+from semnav_env.bench.suite import growth_parts
+from semnav_env.bench.timing import Timing, timings
 from semnav_env.world.maps import load_floor_plan
 from studies.figures import IMAGES
 
@@ -46,14 +46,9 @@ def draw(ax: Axes, title: str, lines: dict[str, str], found: list[Timing]) -> No
 
 def main() -> None:
     """Measure and draw; prints what was measured."""
-    found = growth(
-        load_floor_plan("office_cross"),
-        THREADS,
-        RUNS,
-        STEPS,
-        robot="wheelchair",
-        observation="semantic",
-    )
+    plan = load_floor_plan("office_cross")
+    parts = growth_parts(plan, THREADS, STEPS, robot="wheelchair", observation="semantic")
+    found = timings(parts, RUNS)
     for timing in found:
         print(f"{timing.name}: {timing.microseconds:.1f} us, {timing.ratio:.1f}")
     figure = Figure(figsize=(10.5, 3.2), layout="constrained")

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 from collections.abc import Callable
+from functools import partial
 from importlib import metadata
 from importlib.resources import files
 from pathlib import Path
@@ -50,6 +52,13 @@ def packages(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def fingerprint() -> str:
     return made_by.rules_fingerprint.__wrapped__()
+
+
+def run_git(folder: Path, *words: str) -> str:
+    """What git prints, in a checkout without settings of the user."""
+    named = ("-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "commit.gpgsign=false")
+    command = ["git", "-C", str(folder), *named, *words]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 
 
 def edited(path: Path, change: Callable[[str], str]) -> None:
@@ -103,12 +112,7 @@ def test_words_and_agents_do_not_change_the_fingerprint(packages: Path) -> None:
 
 def test_the_commit_is_that_of_the_checkout_of_the_package(packages: Path) -> None:
     """A package that lies in somebody's checkout, but is not kept there, has no commit."""
-
-    def git(*words: str) -> str:
-        named = ("-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "commit.gpgsign=false")
-        command = ["git", "-C", str(packages), *named, *words]
-        return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
-
+    git = partial(run_git, packages)
     git("init")
     git("commit", "--allow-empty", "-m", "another project")
     assert made_by.commit.__wrapped__() == ""
@@ -117,6 +121,19 @@ def test_the_commit_is_that_of_the_checkout_of_the_package(packages: Path) -> No
     assert made_by.commit.__wrapped__() == git("rev-parse", "HEAD")
     edited(packages / "semnav_env" / "rules.py", lambda text: f"{text}\n")
     assert made_by.commit.__wrapped__() == f"{git('rev-parse', 'HEAD')}-dirty"
+
+
+def test_asking_for_the_commit_writes_nothing_into_the_checkout(packages: Path) -> None:
+    """A process that is killed meanwhile would leave a lock, and git could not be used any more."""
+    init = packages / "semnav_env" / "__init__.py"
+    run_git(packages, "init")
+    run_git(packages, "add", str(init))
+    run_git(packages, "commit", "-m", "the package")
+    index = packages / ".git" / "index"
+    before = index.read_bytes()
+    os.utime(init, ns=(1, 1))  # what git would note in its index
+    assert made_by.commit.__wrapped__()
+    assert index.read_bytes() == before
 
 
 def test_without_git_there_is_no_commit(packages: Path, monkeypatch: pytest.MonkeyPatch) -> None:

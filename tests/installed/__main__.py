@@ -15,6 +15,7 @@ from tempfile import TemporaryDirectory
 from tests.support.paths import ROOT, ROOTS
 
 SMOKE = Path(__file__).with_name("smoke.py")
+REPORT = ("evaluate", "heidelberg", "--agent", "blind", "--seeds", "1")
 DEMO = ("go through the second door on the right", "--map=heidelberg_hallway", "--seed=3")
 
 
@@ -67,7 +68,11 @@ def try_package(package: Path, folder: Path) -> None:
     (installed,) = folder.glob("lib/python*/site-packages")
     missing = sorted(str(file) for file in package_files() if not (installed / file).exists())
     assert not missing, f"{package.name} lacks {', '.join(missing)}"
-    run(folder / "bin/semnav", "demo", *DEMO, cwd=folder)
+    semnav = folder / "bin/semnav"
+    run(semnav, "demo", *DEMO, cwd=folder)
+    run(semnav, *REPORT, "--html", "report.html", cwd=folder)
+    assert "<article" in (folder / "report.html").read_text("utf-8")
+    run(semnav, "completion", "bash", cwd=folder)
     run(folder / "bin/python", "-I", SMOKE, cwd=folder)
 
 
@@ -86,6 +91,9 @@ def main() -> None:
             try_package(package, environment)
         run("make", "demo", f"VENV={environment}", cwd=copy)
         assert (copy / "out" / "demo.gif").stat().st_size > 0
+        viewed = ("view", "test_real-00000", "--agent", "blind", "--out", "out/run.mp4")
+        run(environment / "bin/semnav", *viewed, cwd=copy)
+        assert (copy / "out" / "run.mp4").stat().st_size > 0
 
 
 if __name__ == "__main__":

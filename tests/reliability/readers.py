@@ -13,6 +13,7 @@ import numpy as np
 from ezdxf.enums import InsertUnits
 from PIL import Image
 
+from semnav_agents.evaluation.kept_results import is_results, read_kept_result
 from semnav_agents.learned import LearnedAgent
 from semnav_env.judge.episodes import load_episodes, write_episodes
 from semnav_env.judge.metrics import Recording
@@ -22,6 +23,7 @@ from semnav_env.world.maps.importers import Drawing, import_map
 from semnav_features.readers import Geometry, open_log
 from tests.support.bags import BagFile, Moved, Sweep, storage
 from tests.support.drawn_maps import two_rooms, write_map
+from tests.support.evaluated import write_kept_result
 from tests.support.small_plans import empty_hall
 
 RANGES = [2.0 + 0.01 * k for k in range(60)]
@@ -113,6 +115,11 @@ def _episodes(folder: Path) -> Path:
     return folder / "some.jsonl.gz"
 
 
+def _results(folder: Path) -> Path:
+    write_kept_result(folder / "kept.jsonl")
+    return folder / "kept.jsonl"
+
+
 def _tensors(folder: Path) -> Path:
     save_tensors(folder / "policy.safetensors", {"w": np.ones((4, 5), np.float32)})
     return folder / "policy.safetensors"
@@ -152,6 +159,7 @@ READERS = (
     Reader("HouseExpo", _text("house.json", json.dumps(HOUSE)), import_map),
     Reader("list of walls", _text("walls.csv", "x1,y1,x2,y2\n0,0,5,0\n5,0,5,4\n"), import_map),
     Reader("episodes", _episodes, load_episodes),
+    Reader("results", _results, lambda path: (is_results(path), read_kept_result(path))),
     Reader("CARMEN", _text("a.log", f"FLASER 60 {WORDS} 0 0 0 0 0 0 1.0 r 1.0\n" * 5), read_log),
     Reader("CSV", _text("a.csv", (",".join(map(str, RANGES)) + "\n") * 5), read_log),
     Reader("CSV in gzip", _text("a.csv.gz", (",".join(map(str, RANGES)) + "\n") * 5), read_log),

@@ -17,7 +17,7 @@ QUICK_STRIKES = {"full disk", "killed while writing"}
 QUICK_COMMANDS = {"map generate", "map import", "extract", "demonstrate"}
 WRITE_NOTHING = {
     *("ground", "bench", "doctor", "evaluate language", "map list", "map check"),
-    *("serve", "node", "simulate"),
+    *("serve", "node", "simulate", "completion"),
     *("map", "episodes"),  # further commands of these stand in the table
 }
 

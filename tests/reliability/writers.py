@@ -21,6 +21,7 @@ from semnav_env.networks.weights import WEIGHTS_FILE
 from semnav_env.world.lidar import Lidar
 from semnav_env.world.maps import load_floor_plan, save_floor_plan
 from tests.support.drawn_maps import two_rooms, write_map
+from tests.support.evaluated import write_kept_result
 
 HALL = "heidelberg_hallway"
 SPLIT = "val_seen"
@@ -130,10 +131,12 @@ WRITERS = (
     ),
     Writer(
         "evaluate",
-        f"evaluate {SPLIT} --agent random --episodes 2 --out {{out}}/rows.jsonl --pictures {{out}}",
-        ("rows.jsonl",),
-        named=("rows.jsonl", ".png"),
+        f"evaluate {SPLIT} --agent random --episodes 2 --out {{out}}/rows.jsonl --pictures {{out}}"
+        " --html {out}/report.html",
+        ("rows.jsonl", "report.html"),
+        named=("rows.jsonl", "report.html", ".png"),
     ),
+    Writer("view", "view {inputs}/kept.jsonl --out {out}/run.gif", ("run.gif",)),
     Writer(
         "leaderboard",
         "leaderboard {inputs}/results.jsonl.gz --keep {out}",
@@ -184,3 +187,4 @@ def make_inputs(folder: Path) -> None:
     drive = "random", -1, SPLIT, "wheelchair", "one", 1
     attempt = Attempt(*drive, True, True, 1.0, version="0.2.0", commit="", rules="0" * 16)
     write_attempts([attempt], folder / "results.jsonl.gz")
+    write_kept_result(folder / "kept.jsonl")

@@ -17,7 +17,6 @@ from semnav_agents.evaluation import misreading, runner
 from semnav_agents.evaluation.intervals import wilson_interval
 from semnav_agents.evaluation.provenance import provenance
 from semnav_agents.evaluation.suites import Trial
-from semnav_agents.team import AgentsOneByOne
 from semnav_env.judge.episodes import (
     Expected,
     find_episode,
@@ -27,13 +26,7 @@ from semnav_env.judge.episodes import (
 from semnav_env.judge.metrics.final_belief import FinalBelief
 from semnav_env.world.maps import load_floor_plan
 from semnav_scripts.main import main
-from tests.support.evaluated import Statue, result
-
-
-def statues(name: str, robots: int) -> AgentsOneByOne:
-    """A team that stands still, in place of any."""
-    return AgentsOneByOne([Statue() for _ in range(robots)])
-
+from tests.support.evaluated import Statue, result, statues
 
 TWENTIETH = {"command": "take the twentieth door", "language": "en"}
 

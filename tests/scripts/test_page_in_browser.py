@@ -11,16 +11,12 @@ import pytest
 
 from semnav_scripts.page.listening import listening
 from tests.support.asked import asked_about
+from tests.support.chromium import opened_browser, playwright_or_skip, serious_findings
 from tests.support.page_visitor import WALLS
 
 uvicorn = pytest.importorskip("uvicorn", reason='needs pip install "semnav-env[serve]"')
-playwright = pytest.importorskip("playwright.sync_api", reason="no Playwright: make browser")
-CHROMIUM = Path("/usr/bin/chromium")
-if not CHROMIUM.exists():
-    pytest.skip(f"there is no {CHROMIUM}: make browser", allow_module_level=True)
-
+playwright = playwright_or_skip()
 expect = playwright.expect
-FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking"]
 PHONE = {"width": 360, "height": 740}
 COMMAND = "go through the second door on the right"
 PATIENCE = 60_000
@@ -53,10 +49,8 @@ def address():
 
 @pytest.fixture(scope="module")
 def browser():
-    with playwright.sync_playwright() as driver:
-        opened = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+    with opened_browser(playwright) as opened:
         yield opened
-        opened.close()
 
 
 @pytest.fixture
@@ -264,7 +258,6 @@ CONTRASTS = """() => {
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing_serious(browser, address, scheme):
     """Deque's checker of accessibility: the scene, a question, and the drawing board."""
-    axe = pytest.importorskip("axe_playwright_python", reason="no axe: make browser")
     page = browser.new_page(color_scheme=scheme)
     visit(page, address)
     for state in ("scene", "question", "board"):
@@ -274,11 +267,7 @@ def test_axe_finds_nothing_serious(browser, address, scheme):
         if state == "board":
             page.click("#open-board")
             expect(page.locator("#draw")).to_be_visible()
-        page.evaluate((Path(axe.__file__).parent / "axe.min.js").read_text("utf-8"))
-        found = page.evaluate("axe.run()")
-        assert len(found["passes"]) > 10
-        serious = [v for v in found["violations"] if v["impact"] in ("serious", "critical")]
-        assert [(each["id"], [n["html"] for n in each["nodes"]]) for each in serious] == []
+        assert serious_findings(page) == []
     page.close()
 
 

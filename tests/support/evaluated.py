@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from semnav_agents.evaluation import Result
+from semnav_agents.team import AgentsOneByOne
 from semnav_env.judge.metrics import METRIC_NAMES, Metrics
 from semnav_env.robots import RobotSpec
 
@@ -32,3 +35,19 @@ class Statue:
 
     def act(self, observation: dict[str, Any]) -> np.ndarray:
         return self.action
+
+
+def statues(name: str, robots: int) -> AgentsOneByOne:
+    """A team that stands still, in place of any."""
+    return AgentsOneByOne([Statue() for _ in range(robots)])
+
+
+def write_kept_result(path: Path) -> None:
+    """Write one result as `semnav evaluate --out` does, of a drive of some seconds."""
+    drive = {"agent": "blind", "robot": "wheelchair", "split": "heidelberg", "seed": 3}
+    said = {
+        "floor_plan": "heidelberg_hallway",
+        "command": "go through the second door on the right",
+    }
+    ended = {"success": False, "verdicts": ["wrong door"], "dynamics": {"pedestrians": 0}}
+    path.write_text(json.dumps({**drive, **said, **ended}) + "\n")

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from semnav_agents.base import Agent, GoalHolder, steps
 from semnav_agents.evaluation.causes import cause_of
+from semnav_agents.evaluation.kept_drive import KeptDrive, keep
 from semnav_env.env import SemNavEnv
 from semnav_env.judge import Judge, Verdict
 from semnav_env.judge.metrics import Metrics, Recorder, Recording, measure
@@ -16,10 +18,12 @@ from semnav_env.judge.metrics.event_log import events_of
 from semnav_env.judge.metrics.events import Event
 from semnav_env.judge.metrics.final_belief import FinalBelief
 from semnav_env.judge.recheck import recheck
-from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
 from semnav_features.door_passages import DoorPassage
 from semnav_features.frames import ORIGIN, Pose, compose, relative, to_parent
+
+Watch: TypeAlias = Callable[[bool], None]
+"""Looks at an environment after each step of an episode; it is told whether the episode is over."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +87,10 @@ class Drive:
         """How the robot passed doorways of the plan, in the order of time."""
         return self.recording.passages(self.judge.mission.floor_plan.doors)
 
+    def kept(self) -> KeptDrive:
+        """What is kept of the drive, to look at it later."""
+        return keep(self.recording, self.judge, self.robot, self.belief)
+
     def save_picture(self, path: str | Path, title: str = "") -> None:
         """Write a picture: plan, true route, driven path, contacts, goals, belief at the end."""
         from semnav_env.judge.metrics.picture import (
@@ -105,7 +113,7 @@ def recognised_impossible(judge: Judge, impossible: str | None) -> bool:
 
 
 def drive(
-    env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any], film: Film | None = None
+    env: SemNavEnv, agent: Agent, seed: int, options: dict[str, Any], watch: Watch | None = None
 ) -> Drive:
     """Let an agent drive one episode to its end.
 
@@ -114,14 +122,14 @@ def drive(
         agent: the driver.
         seed: of the episode.
         options: for `env.reset`: "command", "pose", "floor_plan"; or "episode".
-        film: takes frames on the way.
+        watch: is called after each step, and told whether the episode is over; as `Film.note`.
     """
     observation, info = env.reset(seed=seed, options=options)
     recorder = Recorder(env.world)
     for step in steps(env, agent, observation, info):
         recorder.note()
-        if film is not None:
-            film.note(step.terminated or step.truncated)
+        if watch is not None:
+            watch(step.terminated or step.truncated)
     return ended(env, recorder, agent.own_goal() if isinstance(agent, GoalHolder) else None)
 
 

@@ -122,12 +122,14 @@ def commit() -> str:
     folder = Path(str(files(PACKAGE)))
     if not _git(folder, "ls-files", "--error-unmatch", "__init__.py"):
         return ""
-    return _git(folder, "describe", "--always", "--dirty", "--abbrev=40", "--exclude=*")
+    head = _git(folder, "rev-parse", "--verify", "HEAD")
+    changed = _git(folder, "status", "--porcelain", "--untracked-files=no")
+    return f"{head}-dirty" if head and changed else head
 
 
 def _git(folder: Path, *words: str) -> str:
-    """The output of git; empty if git fails or is not installed."""
-    command = ["git", "-C", str(folder), *words]
+    """The output of git, which writes nothing; empty if git fails or is not installed."""
+    command = ["git", "--no-optional-locks", "-C", str(folder), *words]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=60.0, check=False)
     except (OSError, subprocess.TimeoutExpired):

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 
 from semnav_agents.evaluation.intervals import wilson_interval
+from semnav_agents.evaluation.kept_drive import KeptDrive
 from semnav_env.judge import FAILURES
 from semnav_env.judge.metrics import WORST_SHARES, Metrics, means, worst
 from semnav_env.world.dynamics.social import for_json
@@ -32,6 +33,7 @@ class Result:
         group: name under which it is counted.
         kind: kind of the clause that failed, such as "Turn".
         floor_plan: name of the plan.
+        kept: the drive itself, of failures and if `Extras` asks for it; no part of a row.
     """
 
     command: str
@@ -45,6 +47,7 @@ class Result:
     group: str = ""
     kind: str = ""
     floor_plan: str = ""
+    kept: KeptDrive | None = None
 
     @property
     def success(self) -> bool:
@@ -123,10 +126,11 @@ def failure_line(result: Result) -> str:
 def common_causes(results: Sequence[Result]) -> list[tuple[str, int]]:
     """Verdict and kind of clause of the failures, with their counts, the most common first."""
     failed = (result for result in results if not result.success)
-    return Counter(_short_cause(result) for result in failed).most_common()
+    return Counter(short_cause(result) for result in failed).most_common()
 
 
-def _short_cause(result: Result) -> str:
+def short_cause(result: Result) -> str:
+    """Verdict and kind of the clause that failed, in words."""
     verdict = next((verdict for verdict in result.verdicts if verdict in FAILURES), "answered")
     words = re.sub("(?<=[a-z])(?=[A-Z])", " ", result.kind).lower()
     return f'{verdict}, clause "{words}"' if words else verdict

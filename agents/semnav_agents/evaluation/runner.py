@@ -23,6 +23,7 @@ from semnav_agents.registry import AgentSource, make_agent, make_team
 from semnav_agents.team import AgentTeam
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import Episode, Expected
+from semnav_env.mind.observations import ObservationType
 from semnav_env.rendering.film import Film
 from semnav_env.robots import RobotSpec
 from semnav_env.vector import SemNavVectorEnv
@@ -42,11 +43,13 @@ class Extras:
         recheck: judge it a second time, by other code.
         pictures: folder for a picture of each failure.
         films: folder for a film of each failure, for which it is driven a second time.
+        keep: keep the drive of each failure, `Result.kept`.
     """
 
     recheck: bool = False
     pictures: Path | None = None
     films: Path | None = None
+    keep: bool = False
 
 
 NO_EXTRAS = Extras()
@@ -156,7 +159,7 @@ class SuiteJob:
             return self.trial.named_in_errors()
         return nullcontext()
 
-    def result(self, driven: Drive, extras: Extras) -> Result:
+    def result(self, driven: Drive, extras: Extras = NO_EXTRAS) -> Result:
         """The result of its drive."""
         if not isinstance(self.trial, Episode):
             return conclude(driven, self.trial.command, self.seed, extras, group=self.trial.group)
@@ -218,17 +221,34 @@ class SuiteRunner:
     def _film(self, job: SuiteJob, folder: Path) -> None:
         """Drive a failure once more, with the same result, and film it."""
         agent = make_agent(self._setup.agent)
-        env = SemNavEnv(
-            self._setup.robot,
-            observation=agent.observation,
-            lidar=self._setup.lidar,
-            dynamics=self._setup.dynamics,
-            max_seconds=job.max_seconds,
-            render_mode="rgb_array",
-        )
+        env = make_env(self._setup, job, agent.observation, "rgb_array")
         film = Film(env, STEPS_PER_FILM_FRAME)
-        driven = drive(env, agent, job.seed, job.options(env), film)
+        driven = drive(env, agent, job.seed, job.options(env), film.note)
         film.save(folder / f"{file_stem(driven, job.name, job.seed)}.gif")
+
+
+def make_env(
+    setup: SuiteSetup,
+    job: SuiteJob,
+    observation: str | ObservationType,
+    render_mode: str | None = None,
+) -> SemNavEnv:
+    """An environment in which one episode of a suite goes as in the suite.
+
+    Args:
+        setup: settings of the suite.
+        job: the episode.
+        observation: that of its agent.
+        render_mode: "rgb_array" or "human".
+    """
+    return SemNavEnv(
+        setup.robot,
+        observation=observation,
+        lidar=setup.lidar,
+        dynamics=setup.dynamics,
+        max_seconds=job.max_seconds,
+        render_mode=render_mode,
+    )
 
 
 def conclude(
@@ -262,6 +282,7 @@ def conclude(
         group=group or command,
         kind=driven.kind,
         floor_plan=driven.judge.mission.floor_plan.name,
+        kept=driven.kept() if extras.keep and not driven.metrics.success else None,
     )
     if extras.pictures is not None and not result.success:
         name = file_stem(driven, episode or command, seed)

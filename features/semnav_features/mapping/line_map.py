@@ -40,6 +40,9 @@ class LineMap:
         repeated: number of scans that were left out, because the lidar had not moved.
     """
 
+    scans: int
+    repeated: int
+
     def __init__(self, settings: MapSettings | None = None) -> None:
         self._settings = settings or MapSettings()
         self._walls: list[MapWall | None] = []

@@ -65,6 +65,9 @@ class ScanOdometry:
         lost: number of scans without a match; for these the guess is taken.
     """
 
+    keyframes: int
+    lost: int
+
     def __init__(
         self,
         settings: MatchSettings = DEFAULT_MATCH_SETTINGS,

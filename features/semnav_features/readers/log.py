@@ -97,6 +97,8 @@ class LogReader(ABC):
     readable record if the data are damaged or end too early.
     """
 
+    path: Path
+    scans: int
     unit: ClassVar[str] = "line"
     expected: ClassVar[str]
     """Contents of a log of this format, for the error about a log without them."""

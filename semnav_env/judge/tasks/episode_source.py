@@ -29,6 +29,8 @@ class EpisodeSource:
         ValueError: both are given, or one of them is something else.
     """
 
+    episodes: FrozenEpisodes | None
+
     def __init__(self, task: object = None, episodes: Episodes | None = None) -> None:
         if task is not None and episodes is not None:
             raise ValueError("give task= or episodes=, not both")

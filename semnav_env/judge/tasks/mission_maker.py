@@ -32,6 +32,11 @@ class MissionMaker:
         rules: rules of doors, grounding and success.
     """
 
+    floor_plan: FloorPlan
+    robot: RobotSpec
+    rules: Rules
+    geodesic: Geodesic
+
     def __init__(self, floor_plan: FloorPlan, robot: RobotSpec, rules: Rules = Rules()) -> None:
         self.floor_plan, self.robot, self.rules = floor_plan, robot, rules
         self.geodesic = floor_plan.derived(Geodesic)

@@ -39,6 +39,8 @@ class Curriculum:
         ValueError: no tasks, a share outside [0, 1], or a window below 1.
     """
 
+    stage: int
+
     def __init__(self, tasks: Sequence[object], promotion: float = 0.8, window: int = 20) -> None:
         if not tasks or not 0.0 <= promotion <= 1.0 or window < 1:
             raise ValueError(

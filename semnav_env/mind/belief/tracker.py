@@ -80,6 +80,16 @@ class BeliefTracker:
         asked: those of the trackers that share this set whose belief was asked for since the scan.
     """
 
+    lidar: LidarSpec
+    mount: Pose
+    corrects_drift: bool
+    known_scene: Scene | None
+    ranges: FloatArray
+    bumps: BumpMap
+    rules: Rules
+    memory: SceneMemory
+    thread_door: ThreadDoor
+    senses: Senses
     follower: Follower
 
     @property

@@ -72,6 +72,9 @@ class PlanLocalizer:
             covariance.
     """
 
+    doors_world: tuple[Door, ...]
+    rules: LocalizerRules
+
     def __init__(
         self,
         doors_world: Sequence[Door],

@@ -31,6 +31,8 @@ class CloudEntry:
         ValueError: no rows.
     """
 
+    rig: DepthRig
+    points: int
     name = "cloud"
 
     def __init__(self, rig: DepthRig, points: int = 2048) -> None:

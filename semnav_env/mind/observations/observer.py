@@ -111,6 +111,14 @@ class EntryObservation:
         ValueError: no such mode, or a name that is taken.
     """
 
+    mode: str
+    extra: tuple[ExtraEntry, ...]
+    exact: bool
+    remembers: bool
+    observes_features: bool
+    row_size: int
+    places: dict[str, slice]
+
     def __init__(self, mode: str = "semantic", extra: Sequence[ExtraEntry] = ()) -> None:
         if mode not in tuple(MODES):
             raise ValueError(f"no observation {mode!r:.80}; there are: {', '.join(MODES)}")

@@ -26,6 +26,8 @@ class PlanSource:
         ValueError: `dynamics` is something else.
     """
 
+    dynamics: Dynamics
+
     def __init__(
         self, default: str | Path | FloorPlan, dynamics: Dynamics, robot: RobotSpec
     ) -> None:

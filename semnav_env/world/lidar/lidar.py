@@ -63,6 +63,12 @@ class Lidar:
             `cast` takes the first five.
     """
 
+    spec: LidarSpec
+    mount: Pose
+    arrays: tuple[
+        np.ndarray, NDArray[np.int64], FloatArray, CosinesSines, np.ndarray, FloatArray, FloatArray
+    ]
+
     def __init__(
         self,
         floor_plan: FloorPlan,

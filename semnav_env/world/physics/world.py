@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pymunk
+from numpy.typing import NDArray
 
 from semnav_env.robots import RobotSpec
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
@@ -68,6 +69,15 @@ class World:
             same array.
         solids: what a robot may touch, see `culling_around`.
     """
+
+    floor_plan: FloorPlan
+    robot: RobotSpec
+    control_hz: float
+    substeps: int
+    moving: Moving | None
+    still: FloorPlan
+    record: np.ndarray
+    solids: tuple[np.ndarray, NDArray[np.int64], FloatArray]
 
     def __init__(
         self,

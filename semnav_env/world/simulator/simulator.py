@@ -23,7 +23,7 @@ from semnav_env.world.simulator.sensing import (
     sense,
 )
 from semnav_features.checked_fields import check_fields
-from semnav_features.frames import Pose, Twist
+from semnav_features.frames import FloatArray, Pose, Twist
 from semnav_features.lidar_spec import LidarSpec
 from semnav_features.lidars import TIM561
 from semnav_features.one_thread import ThreadDoor, for_one_thread
@@ -105,6 +105,15 @@ class Simulator:
         last_ranges: of the last scan, metres, shape (beams,); always the same array.
         arrays: the arrays of the compiled `sense`; they are made again for a copy.
     """
+
+    floor_plan: FloorPlan
+    setup: RobotSetup
+    world: World
+    lidar: Lidar
+    odometry: Odometry
+    last_ranges: FloatArray
+    arrays: SimulatorArrays
+    thread_door: ThreadDoor
 
     def __init__(
         self,

@@ -21,6 +21,24 @@ export function draw(context, camera, scene, moment, extra) {
   drawScale();
 }
 
+/** Draw a moment of a drive that was kept: beside it the true way, and where something was touched. */
+export function drawKept(context, camera, scene, moment, { trail, route, goals, touched, aim }) {
+  begin(context, camera);
+  drawFloor(scene.plan);
+  drawSolids(scene.plan);
+  paint.setLineDash([7, 6]);
+  line(route, "good", 2);
+  paint.setLineDash([]);
+  drawMoment(moment, scene, trail);
+  const doors = new Set(scene.plan.doors.map(({ name }) => name)); // in their words is told what failed
+  for (const door of scene.plan.doors) drawDoorName(door);
+  drawRoomNames(scene.plan.rooms.filter(({ name }) => !doors.has(name)));
+  goals.forEach((at, index) => drawMark(index + 1, at, "good"));
+  if (aim) drawMark("★", aim, "goal");
+  for (const at of touched) drawMark("×", at, "hit");
+  drawScale();
+}
+
 /** Draw a floor plan that is drawn on: all its names, its faults, and the line that is begun. */
 export function drawBoard(context, camera, plan, faults, { line: begun, cross }) {
   begin(context, camera);
@@ -30,7 +48,7 @@ export function drawBoard(context, camera, plan, faults, { line: begun, cross })
   for (const room of plan.rooms) write(room.name, ...room.at, "ink");
   for (const door of plan.doors) drawDoorName(door);
   for (const corridor of plan.corridors) write(corridor.name, ...corridor.at, "name");
-  faults.forEach(({ at }, index) => { if (at) drawFault(index + 1, ...at); });
+  faults.forEach(({ at }, index) => { if (at) drawMark(index + 1, at, "bad"); });
   if (begun) drawBegun(begun);
   if (cross) drawCross(cross);
   drawScale();
@@ -93,13 +111,14 @@ function writeAt(words, x, y, colourName, halo) {
 function overlap(a, b) { return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3]; }
 function spaced(name) { return name.replaceAll("_", " "); }
 
-function drawFault(number, x, y) {
+/** A number or another sign in a ring. */
+function drawMark(sign, [x, y], name) {
   paint.beginPath();
   paint.arc(view.x(x), view.y(y), 9, 0, 7);
   paint.fillStyle = colour("halo");
   paint.fill();
-  stroke("bad", 2);
-  text(String(number), view.x(x), view.y(y), "bad", "bold 11px system-ui, sans-serif");
+  stroke(name, 2);
+  text(String(sign), view.x(x), view.y(y), name, "bold 11px system-ui, sans-serif");
 }
 
 function drawBegun([from, to]) {
