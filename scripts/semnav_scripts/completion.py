@@ -23,8 +23,8 @@ FILES_TOO = "eval \"$(complete -p semnav | sed 's/^complete /complete -o default
 class Arguments:
     """Print the script by which a shell completes commands, options and names of files.
 
-    Keep what is printed where the shell looks for it; docs/guides/command_line.md says where that is. A
-    new version needs a new script.
+    Keep what is printed where the shell looks for it; docs/guides/command_line.md says where that
+    is. A new version needs a new script.
 
     Attributes:
         shell: bash, zsh or fish.
