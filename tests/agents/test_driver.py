@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_agents.planning.doorway import barriers_across, room_behind, target_behind
-from semnav_agents.planning.driver import Driver
+from semnav_agents.planning.driver import BACKING_SPEED, JAM_STEPS, Driver
 from semnav_agents.planning.follower import PathProgress, follow
 from semnav_agents.planning.guard import safe_share
 from semnav_agents.planning.obstacles import points_of_segments
@@ -266,6 +266,33 @@ def test_what_moves_is_not_evaded_through_a_barrier():
     for _ in range(3 * driver.patience):
         driver.drive(points, target, (2.3, 0.0, 0.0), barriers=across, moving=person)
         assert is_free(across, driver.path.poses, WHEELCHAIR)
+
+
+def test_what_moves_is_not_evaded_by_a_long_way():
+    """The other gap lies 4 m aside; the path to it is too long to be worth a try."""
+    points, barrier = wall_with_two_gaps()
+    person = barrier + np.array((0.3, 0.0))
+    driver, target = Driver(WHEELCHAIR), DriveTarget((4.5, 0.0, 0.0), 0.2, None)
+    for _ in range(JAM_STEPS):
+        driver.drive(points, target, (2.3, 0.0, 0.0), moving=person)
+        assert not driver.path.crosses(*GATES[4.0])
+
+
+@ROBOTS
+def test_a_robot_backs_off_from_who_does_not_go_away(robot):
+    points, barrier = wall_with_two_gaps()
+    person = barrier + np.array((0.1, 0.0))
+    target, here = DriveTarget((4.5, 0.0, 0.0), 0.2, None), (2.3, 0.0, 0.0)
+    behind = np.array([(here[0] - robot.length / 2 - 0.02, 0.0)])
+    for standing, moving, expected in (
+        (points, person, -BACKING_SPEED),
+        (np.vstack((points, behind)), person, 0.0),
+        (points, np.vstack((person, behind)), 0.0),
+    ):
+        driver = Driver(robot)
+        told = target, here, (0.0, 0.0, 0.0), NOTHING, moving
+        slowest = min(driver.drive(standing, *told).forward for _ in range(2 * JAM_STEPS))
+        assert slowest == expected
 
 
 @ROBOTS

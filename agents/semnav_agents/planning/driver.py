@@ -52,6 +52,18 @@ YIELD_DISTANCE, YIELD_SECONDS = 0.5, 1.2
 """What moves matters on the path up to this distance, and up to what is driven in this time, metres
 and seconds."""
 
+EVASION_LENGTH = 1.5
+"""Length by which a path around what moves may exceed what `detour` allows, metres: the robot may
+have to get clear first."""
+
+JAM_STEPS, STANDING_SPEED = 90, 0.05
+"""Steps of standing before what moves after which a robot backs off, and the speed below which it
+stands, m/s and rad/s: somebody who stands before it for six seconds cannot go on either."""
+
+BACKING_SPEED, BACKING_STEPS = 0.2, 22
+"""Speed of backing off, m/s, and its duration in steps: slow, because the lidar sees little
+behind."""
+
 
 @dataclass
 class Driver:
@@ -59,7 +71,8 @@ class Driver:
 
     It plans again when the target moves, when an obstacle lies on the path, when the robot is off
     the path, and when a path that led only part of the way is nearly driven. For what moves it
-    waits; only if that does not go away it plans around it.
+    waits; only if that does not go away it plans around it, by a short way; and from a jam it backs
+    off.
 
     Attributes:
         robot: footprint and limits.
@@ -99,7 +112,7 @@ class Driver:
         self._braking = False
         self._refusals = 0
         self._heeds_barriers = False
-        self._yielded = self._around = self._barred = 0
+        self._yielded = self._around = self._barred = self._held = self._backing = 0
 
     def plan_at_once(self) -> None:
         """Plan to the next target without standing still first."""
@@ -138,10 +151,13 @@ class Driver:
         self._step += 1
         self._wait -= 1
         self._around -= 1
+        self._backing -= 1
         standing = obstacles = as_obstacles(points)
         barriers = as_obstacles(barriers)
         if self._around > 0:
             obstacles = JoinedObstacles((standing, as_obstacles(moving)))
+        if self._backing > 0:
+            return self._back_off(standing, moving, pose, velocity)
         self._braking = self._braking and max(map(abs, velocity)) > 0.05
         if self._braking:
             return STANDSTILL
@@ -149,26 +165,26 @@ class Driver:
             if self._wait > 0:
                 return STANDSTILL
             self._plan(obstacles.points(), target, pose, velocity, barriers.points())
-            if self._around > 0 and not self._keeps_off(barriers.points()):
+            if self._around > 0 and not self._leads_around(target, barriers.points()):
                 self._around = 0
                 self._plan(standing.points(), target, pose, velocity, barriers.points())
         assert self._track is not None
         if self._around <= 0 and self._yields(moving, pose, velocity):
-            return STANDSTILL
+            return self._hold(velocity)
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
         if steering.deviation > self.follower.lost:
             return self._stop()
         near = points_around(pose, moving, 1.5 * self.robot.length)
         if safe_share(near, steering.twist, velocity, self.robot) == 0.0:
-            return STANDSTILL  # it is no noise, so that the robot never insists
+            return self._hold(velocity)  # it is no noise, so that the robot never insists
         return self._guarded(obstacles, pose, velocity, steering)
 
     def _yields(self, moving: FloatArray, pose: Pose, velocity: Twist) -> bool:
         """Whether to wait for what moves on the next stretch of the path, nearer than it is now.
 
-        What is still there after `patience` steps is planned around for as long, but not through a
-        barrier.
+        What is still there after `patience` steps is planned around for as long, if there is a
+        short way.
         """
         distance = YIELD_DISTANCE + YIELD_SECONDS * math.hypot(velocity[0], velocity[1])
         near = points_around(pose, moving, distance + self.robot.length)
@@ -185,6 +201,23 @@ class Driver:
         if self._yielded > self.patience:
             self._yielded, self._around, self._track = 0, self.patience, None
         return True
+
+    def _hold(self, velocity: Twist) -> Steering:
+        """Stand still before what moves; after `JAM_STEPS` of it, back off next."""
+        self._held = self._held + 1 if max(map(abs, velocity)) < STANDING_SPEED else 0
+        if self._held > JAM_STEPS:
+            self._held, self._backing = 0, BACKING_STEPS
+        return STANDSTILL
+
+    def _back_off(
+        self, standing: Obstacles, moving: FloatArray, pose: Pose, velocity: Twist
+    ) -> Steering:
+        """Make room: slowly straight backwards, as far as nothing is seen there."""
+        self._track = None
+        reach = 1.5 * self.robot.length
+        seen = np.vstack((standing.near(pose, reach), points_around(pose, moving, reach)))
+        back = Steering(-BACKING_SPEED, 0.0, 0.0, PathProgress())
+        return back if safe_share(seen, back.twist, velocity, self.robot) == 1.0 else STANDSTILL
 
     def _stop(self) -> Steering:
         """Brake, and plan again from standstill."""
@@ -294,9 +327,16 @@ class Driver:
             return False
         return is_free(barriers, path.poses, self.robot)
 
-    def _keeps_off(self, barriers: FloatArray) -> bool:
-        """Whether the path crosses no barrier."""
-        return self.path is None or is_free(barriers, self.path.poses, self.robot)
+    def _leads_around(self, target: DriveTarget, barriers: FloatArray) -> bool:
+        """Whether the path leads to the target by a short way and through no barrier.
+
+        A long way leads through what has not been seen yet, and so through doors.
+        """
+        path = self.path
+        if path is None or not path.complete or not is_free(barriers, path.poses, self.robot):
+            return False
+        direct = math.dist(path.start[:2], target.pose[:2])
+        return path.length < self.detour * direct + EVASION_LENGTH
 
     def _path_to_stop(self, points: FloatArray, pose: Pose, velocity: Twist) -> PlannedPath | None:
         """The part of the old path that braking needs; None if it is not free or missing."""

@@ -25,7 +25,9 @@ def next_on_way(goal: Goal, pose: Pose, rules: GroundingRules) -> Goal:
     stretch = _along(goal.places, here)
     if goal.wall is not None:  # the lane was measured from the wall, so that it has not drifted
         return SeekGoal(there, f"the wall on the {goal.wall}")
-    if abs(wrap_angle(stretch[2] - there[2])) < rules.straight_way_angle:
+    before = _along(goal.places, max(here - 1, 0))
+    turned = max(abs(wrap_angle(each[2] - there[2])) for each in (before, stretch))
+    if turned < rules.straight_way_angle:  # at a bend, an offset is no drift
         offset = to_local(stretch, pose[:2])[1]
         there = _beside(there, offset if abs(offset) < rules.way_drift else 0.0)
     return SeekGoal(there, "the way")

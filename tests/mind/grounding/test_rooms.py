@@ -317,6 +317,16 @@ def test_a_way_that_bends_a_little_leads_to_no_place_beside_it() -> None:
         assert math.dist(towards.pose[:2], (3.0, 0.0)) == pytest.approx(abs(beside), abs=1e-6)
 
 
+def test_an_offset_at_a_bend_of_a_way_is_no_drift() -> None:
+    """Who was pushed past a bend comes back into the corridor, not into the room beside it."""
+    way = Way(((0.0, 0.0), (1.5, 0.0), (3.0, 0.0), (3.0, -1.5), (3.0, -3.0), (3.0, -4.5)))
+    (clause,) = parse("go back to the start").clauses
+    goal = ground(clause, DOORS, (0.0, 0.0, 0.0), way=way)
+    for beyond in (0.5, 1.0):
+        towards = next_on_way(goal, (3.0 + beyond, 0.5, 0.0), GroundingRules())
+        assert towards.pose[:2] == pytest.approx((3.0, -3.0), abs=1e-9)
+
+
 @pytest.mark.parametrize("agent", ["oracle", "scripted"])
 def test_agents_go_to_a_named_room_wait_and_come_back(agent: str) -> None:
     driver = make_agent(agent)
