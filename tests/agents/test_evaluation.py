@@ -87,9 +87,7 @@ def test_a_search_has_its_own_time_limit_and_two_victims() -> None:
 
 
 def test_an_unknown_suite_is_an_error_that_lists_the_known_ones() -> None:
-    with pytest.raises(
-        ValueError, match="office_cross, villa_doors, .*, villa, all, and the splits train"
-    ):
+    with pytest.raises(ValueError, match=r"office_cross, villa_doors, .*, villa, all, and the sp"):
         suite("moon")
 
 
