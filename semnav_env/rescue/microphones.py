@@ -60,7 +60,7 @@ USUAL_MICROPHONES = MicrophoneSettings()
 """The default microphone array."""
 
 
-class Answer(NamedTuple):
+class VoiceAnswer(NamedTuple):
     """An answer to a call.
 
     Attributes:
@@ -94,7 +94,7 @@ class MicrophoneArray:
         solid = [s.points for s in plan.surfaces if s.material in (Material.WALL, Material.GLASS)]
         self._walls = STRtree([LineString(ends) for points in solid for ends in pairwise(points)])
 
-    def call(self, pose: Pose) -> list[Answer]:
+    def call(self, pose: Pose) -> list[VoiceAnswer]:
         """Call once; the answers that are heard.
 
         Args:
@@ -108,5 +108,5 @@ class MicrophoneArray:
                 x, y = to_local(pose, place)
                 std = self.settings.std(distance, walls)
                 error = std * float(self._rng.standard_normal())
-                answers.append(Answer(person, wrap_angle(math.atan2(y, x) + error), std))
+                answers.append(VoiceAnswer(person, wrap_angle(math.atan2(y, x) + error), std))
         return answers
