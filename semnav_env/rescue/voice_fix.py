@@ -71,7 +71,8 @@ def fix(voices: Sequence[HeardVoice]) -> VoiceFix | None:
     if (ahead <= 0.0).any():
         return None
     slopes, _ = _linearised(place, eyes, angles, stds)
-    return VoiceFix((float(place[0]), float(place[1])), np.linalg.inv(slopes.T @ slopes))
+    covariance = np.asarray(np.linalg.inv(slopes.T @ slopes), dtype=np.float64)
+    return VoiceFix((float(place[0]), float(place[1])), covariance)
 
 
 def _linearised(
