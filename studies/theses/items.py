@@ -368,7 +368,7 @@ ITEMS = (
             "no figure",
             "{}",
             f"semnav evaluate villa --robot {robot.lower()} --seeds 5",
-            (Figure("evaluation.md", (f"scripted, {robot}", "200 episodes"), "all four"),),
+            (Figure("guides/evaluation.md", (f"scripted, {robot}", "200 episodes"), "all four"),),
         )
         for robot in ("wheelchair", "SPOT")
     ],
