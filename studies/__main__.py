@@ -15,6 +15,10 @@ STUDIES = CommandTable(
         "drift": ("studies.drift.command", "success against drift of odometry"),
         "exits": ("studies.exits.command", "how often robots get out through a named door"),
         "features": ("studies.features.command", "the feature extractor against truth"),
+        "finding": (
+            "studies.finding.command",
+            "ways of finding somebody: look, or call",
+        ),
         "frames": ("studies.theses.frames_command", "doors of Barbret's hallway in his frame 536"),
         "grids": ("studies.grids", "kernels on grids beside those of SciPy"),
         "lines": ("studies.lines.command", "lines on real scans, walls on simulated ones"),

@@ -25,6 +25,7 @@ from semnav_agents.evaluation import (
     run_suite,
     suite,
     summarise,
+    usual_agent,
 )
 from semnav_agents.evaluation.provenance import provenance
 from semnav_agents.evaluation.runner import JOBS_OF_A_SHARE
@@ -53,10 +54,12 @@ class Arguments:
     and the failures.
 
     Attributes:
-        suite: heidelberg, office_cross, villa_hall, or "all" of these; a split
-            (`semnav episodes list`); or a file of episodes.
+        suite: heidelberg, office_cross, villa_doors, villa_turns, villa_rooms, villa_exits, "villa"
+            for these four, or "all"; villa_search; a split (`semnav episodes list`); or a file of
+            episodes.
         agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
-            folder of a trained agent, or package.module:Class.
+            folder of a trained agent, or package.module:Class; searcher (knows the plan) or
+            explorer for villa_search. If not given: scripted, for villa_search searcher.
         robot: wheelchair or spot.
         lidar: name of a lidar, such as rplidar_a1; docs/guides/lidars.md lists them.
         seeds: number of start poses, each with its own noise, for every command of a suite; 20 if
@@ -76,7 +79,7 @@ class Arguments:
     """
 
     suite: Positional[str] = "heidelberg"
-    agent: str = "scripted"
+    agent: str | None = None
     robot: str = "wheelchair"
     lidar: str = "tim561"
     seeds: int | None = None
@@ -111,8 +114,9 @@ class Arguments:
         extras = Extras(self.recheck, self.pictures, self.films, keep=self.html is not None)
         workers = self.workers or min(os.cpu_count() or 1, -(-total // JOBS_OF_A_SHARE))
         how = workers, extras, self.dynamics, self.lidar
-        who = self._who()
-        driven = without_excess(run_suite(trials, self.agent, self.robot, seeds, *how))
+        agent = self.agent or usual_agent(trials)
+        who = self._who(agent)
+        driven = without_excess(run_suite(trials, agent, self.robot, seeds, *how))
         results = self._drive(driven, total, who)
         groups = list(dict.fromkeys(trial.group for trial in trials))
         if isinstance(trials[0], Episode):
@@ -138,9 +142,9 @@ class Arguments:
         if self.films is not None:
             load_pygame()  # says at once where it is missing
 
-    def _who(self) -> dict[str, Any]:
+    def _who(self, agent: str) -> dict[str, Any]:
         """Fields of every row: agent, split, body, version, rules, and what is not as usual."""
-        who = agent_label(self.agent) | {"split": Path(self.suite).name, "robot": self.robot}
+        who = agent_label(agent) | {"split": Path(self.suite).name, "robot": self.robot}
         usual, chosen = asdict(NO_DYNAMICS), asdict(self.dynamics)
         if moved := {name: value for name, value in chosen.items() if value != usual[name]}:
             who |= {"dynamics": moved}

@@ -1,11 +1,18 @@
-"""Search and rescue: a person detector, its map of people, and the judgement of a search."""
+"""Search and rescue: a person detector, its map of people, judged searches, and calling."""
 
+from semnav_env.rescue.call_and_listen import CallAndListen
+from semnav_env.rescue.microphones import MicrophoneArray, MicrophoneSettings
 from semnav_env.rescue.outcome import SearchOutcome
 from semnav_env.rescue.person_map import PersonMap, PersonTrack
 from semnav_env.rescue.person_search import PersonSearch
 from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
+from semnav_env.rescue.voice_fix import HeardVoice, VoiceFix, fix
 
 __all__ = [
+    "CallAndListen",
+    "HeardVoice",
+    "MicrophoneArray",
+    "MicrophoneSettings",
     "PersonDetectorSettings",
     "PersonMap",
     "PersonMapSettings",
@@ -13,4 +20,6 @@ __all__ = [
     "PersonTrack",
     "SearchOutcome",
     "SearchRules",
+    "VoiceFix",
+    "fix",
 ]

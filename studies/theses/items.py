@@ -333,13 +333,45 @@ ITEMS = (
             ]
         ),
     ),
-    ThesisItem(
-        MES,
-        "chapter 1",
-        "turn and look, call and listen, approach, ask the name",
-        "no figure",
-        "approaching is part of a search; the others: not built",
-        "",
-    ),
+    *[
+        ThesisItem(
+            MES,
+            "chapter 1",
+            f"{what}: people found, median error of the place in m, time in s",
+            "no figure",
+            "{}, {}, {}",
+            "python -m studies finding --houses 100",
+            tuple(
+                [
+                    Figure("lab/search_and_rescue.md", (way,), column)
+                    for column in (
+                        "people found within 1 m",
+                        "error of the place, m: median",
+                        "time, s: median",
+                    )
+                ]
+            ),
+        )
+        for what, way in (
+            ("a room is scanned from one place", "turn on the spot and look"),
+            ("a room is scanned from several places", "look from several places"),
+            ("calling, as with SPOT's one microphone", "call, one microphone"),
+            ("calling, with a microphone array", "call and listen"),
+            ("a person who was heard is approached", "call, listen and approach"),
+        )
+    ],
+    *[
+        ThesisItem(
+            MES,
+            "7.1",
+            f"doors, turns, rooms and exits of her hall, {robot}: success / without contact",
+            "no figure",
+            "{}",
+            f"semnav evaluate villa --robot {robot.lower()} --seeds 5",
+            (Figure("guides/evaluation.md", (f"scripted, {robot}", "200 episodes"), "all four"),),
+        )
+        for robot in ("wheelchair", "SPOT")
+    ],
+    ThesisItem(MES, "chapter 1", "a person is asked for the name", "no figure", NOT_BUILT, ""),
 )
 """All of them, in the order of the documents."""

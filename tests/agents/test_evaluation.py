@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import pytest
 
-from semnav_agents.evaluation import SUITES, runner, suite, summarise
+from semnav_agents.evaluation import SUITES, runner, suite, summarise, usual_agent
 from semnav_agents.evaluation.drive import drive
+from semnav_agents.evaluation.runner import TRIAL_SECONDS, SuiteJob
 from semnav_agents.evaluation.suites import Trial
 from semnav_agents.hearing.agent import HearingAgent
 from semnav_agents.registry import make_agent
@@ -20,6 +21,7 @@ from semnav_env.judge.episodes import (
 )
 from semnav_env.judge.metrics import METRIC_NAMES
 from semnav_env.language import parse
+from semnav_env.rescue.environment import MAX_SEARCH_SECONDS
 from semnav_env.robots import ROBOTS
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.placement import placement_error
@@ -63,8 +65,29 @@ def test_the_office_suite_has_one_to_three_clauses() -> None:
     assert clauses == {1, 2, 3}
 
 
+def test_the_suites_of_the_villa_have_a_hundred_episodes_each_with_ten_seeds() -> None:
+    names = ("villa_doors", "villa_turns", "villa_rooms", "villa_exits")
+    assert [len(suite(name)) for name in names] == [10, 10, 10, 10]
+    assert suite("villa") == tuple(trial for name in names for trial in suite(name))
+    assert not any(trial.is_search for trial in suite("all"))
+
+
+def test_a_suite_of_searches_is_driven_by_the_searcher_if_none_is_named() -> None:
+    assert usual_agent(suite("villa_search")) == "searcher"
+    assert usual_agent(suite("villa")) == "scripted"
+    assert usual_agent(load_episodes("test_real")) == "scripted"
+
+
+def test_a_search_has_its_own_time_limit_and_two_victims() -> None:
+    [trial, *_] = suite("villa_search")
+    [result] = runner.run_suite([trial], Statue, "spot", (0,))
+    assert result.verdicts == ("incomplete",)
+    assert SuiteJob(trial, 0).max_seconds == MAX_SEARCH_SECONDS
+    assert SuiteJob(suite("villa")[0], 0).max_seconds == TRIAL_SECONDS
+
+
 def test_an_unknown_suite_is_an_error_that_lists_the_known_ones() -> None:
-    with pytest.raises(ValueError, match="office_cross, villa_hall, all, and the splits train"):
+    with pytest.raises(ValueError, match=r"office_cross, villa_doors, .*, villa, all, and the sp"):
         suite("moon")
 
 

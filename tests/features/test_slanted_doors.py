@@ -9,7 +9,7 @@ import pytest
 
 from semnav_features import ExtractorSettings, Scan, Scene, extract
 from semnav_features.frames import FloatArray, Point, Pose
-from tests.support.raycaster import polygon, polyline, scan_of
+from tests.support.raycaster import FIELD_OF_VIEW, polygon, polyline, scan_of
 
 NEAR, FAR = 2.6, 3.6
 """Where the jambs of the door are along the corridor, metres."""
@@ -82,6 +82,20 @@ def test_the_near_end_of_a_reveal_is_a_jamb_where_its_wall_is_not_seen() -> None
     for seed in range(5):
         scene = extract(seen(corridor(0.3, ends_at_door=True), seed), chosen)
         assert has_door(scene, (NEAR, -SIDE), (FAR, -SIDE), within=0.05)
+
+
+@pytest.mark.parametrize(("pose", "edge"), [((1.51, 0.44), 1.0), ((-0.07, 4.54), -1.0)])
+def test_a_wall_at_the_edge_of_the_field_of_view_is_no_reveal(pose: Point, edge: float) -> None:
+    """Past the corner of an angled hall 0.3 m of the wall across are seen before the view ends.
+
+    The mouth of the hall beyond, 1.1 m wide, is no door.
+    """
+    hall = polygon((0, 0), (2.4, 0), (2.4, 4.9), (-6.2, 4.9), (-6.2, 3.8), (0, 3.8))
+    direction = math.atan2(4.9 - pose[1], -0.03 - pose[0])
+    here: Pose = (*pose, direction + edge * 0.5 * FIELD_OF_VIEW)
+    for seed in range(5):
+        scene = extract(scan_of(hall, here, sigma=0.02, rng=np.random.default_rng(seed)))
+        assert not scene.doors
 
 
 def test_a_closed_door_at_a_slant_is_turned_down_for_its_depth() -> None:

@@ -34,6 +34,9 @@ LONGEST_SPACING = 0.3
 LONGEST_REVEAL = 0.5
 """`jambs`: a longer piece is no reveal, metres."""
 
+BEAMS_AT_EDGE = 2
+"""`jambs`: a piece that ends within this many beams of the edge of the scan has no end there."""
+
 MOST_VEILED = 2
 """`filters`: beams in a row that may be a veil."""
 

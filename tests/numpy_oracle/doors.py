@@ -12,7 +12,12 @@ import numpy as np
 from semnav_features.frames import FloatArray
 from semnav_features.scene import Door
 from semnav_features.settings import ExtractorSettings
-from tests.numpy_oracle.constants import LONGEST_REVEAL, LONGEST_SPACING, SCORER_FILE
+from tests.numpy_oracle.constants import (
+    BEAMS_AT_EDGE,
+    LONGEST_REVEAL,
+    LONGEST_SPACING,
+    SCORER_FILE,
+)
 from tests.numpy_oracle.door_evidence import Gap, Jamb, evidence_of, is_open
 from tests.numpy_oracle.door_leaf import find_leaf
 from tests.numpy_oracle.sweep import Sweep
@@ -72,9 +77,11 @@ def _jambs(
             piece, recedes = pieces[k], _recedes(pieces[k])
             is_within = first <= piece.beams[0] and piece.beams[-1] <= last
             meets = k > 0 and pieces[k - 1].beams[-1] >= piece.beams[0]
+            meets |= not sweep.turn and piece.beams[0] < BEAMS_AT_EDGE
             if piece.beams[-1] == last and recedes > 0 and not meets:
                 starts.append(Jamb(piece.start, piece.beams[0], k - 1, is_reveal=True))
             met = k + 1 < len(pieces) and pieces[k + 1].beams[0] <= piece.beams[-1]
+            met |= not sweep.turn and piece.beams[-1] >= len(sweep.ranges) - BEAMS_AT_EDGE
             if is_within and piece.beams[0] == first and recedes < 0 and not met:
                 ends.append(Jamb(piece.end, piece.beams[-1], k + 1, is_reveal=True))
     return sorted(starts, key=lambda j: j.beam), sorted(ends, key=lambda j: j.beam)

@@ -4,11 +4,13 @@ import json
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from PIL import Image
 
 from semnav_env.world.maps import bundled_names, load_floor_plan
 from semnav_features import Door, ExtractorSettings, Scene, extract
+from semnav_features.frames import to_parent
 from studies.__main__ import STUDIES
 from studies.doors.door_sightings import Gate
 from studies.doors.openings import read_openings
@@ -21,6 +23,7 @@ from studies.doors.real_doors import (
     passes,
     targets,
 )
+from studies.features.cases import draw_cases
 from studies.features.metrics import score, segmentation_rates
 from studies.features.real_logs import find_logs, is_finite, log_row
 from studies.features.records import FeatureKind
@@ -38,6 +41,17 @@ def test_strategies_differ_from_the_default_in_one_choice_each():
     assert strategies[DEFAULT_STRATEGY] == ExtractorSettings()
     assert len(strategies) > 6
     assert len(set(strategies.values())) == len(strategies)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_of_six_hundred_scans_of_the_villa_one_at_most_shows_a_door_that_is_none(seed):
+    """Its hall is 1.10 m wide, so that its mouth has the width of a door."""
+    plan, false = load_floor_plan("villa_hall"), 0
+    for case in draw_cases(plan, 600, (0.02,), False, np.random.default_rng(seed)):
+        [(_, scan)] = case.scans
+        places = [to_parent(case.pose, door.midpoint) for door in extract(scan).doors]
+        false += sum(min(math.dist(p, d.midpoint) for d in plan.doors) > 0.3 for p in places)
+    assert false <= 1
 
 
 def test_the_extractor_keeps_its_level_on_a_small_sample():

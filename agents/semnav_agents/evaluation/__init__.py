@@ -10,7 +10,7 @@ from semnav_agents.evaluation.results import (
     summarise,
 )
 from semnav_agents.evaluation.runner import Extras, conclude, run_suite
-from semnav_agents.evaluation.suites import SUITES, Trial, suite
+from semnav_agents.evaluation.suites import SUITES, Trial, suite, usual_agent
 
 __all__ = [
     "SUITES",
@@ -28,4 +28,5 @@ __all__ = [
     "run_suite",
     "suite",
     "summarise",
+    "usual_agent",
 ]

@@ -25,6 +25,12 @@ from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import Episode, Expected
 from semnav_env.mind.observations import ObservationType
 from semnav_env.rendering.film import Film
+from semnav_env.rescue.environment import (
+    MAX_SEARCH_SECONDS,
+    VICTIMS,
+    search_and_rescue,
+    search_and_rescue_vector,
+)
 from semnav_env.robots import RobotSpec
 from semnav_env.vector import SemNavVectorEnv
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
@@ -135,8 +141,15 @@ class SuiteJob:
     seed: int
 
     @property
+    def is_search(self) -> bool:
+        """Whether people are searched."""
+        return isinstance(self.trial, Trial) and self.trial.is_search
+
+    @property
     def max_seconds(self) -> float:
         """Time limit, simulated seconds."""
+        if self.is_search:
+            return MAX_SEARCH_SECONDS
         return EPISODE_SECONDS if isinstance(self.trial, Episode) else TRIAL_SECONDS
 
     @property
@@ -179,13 +192,13 @@ class SuiteRunner:
 
     def run(self, jobs: Sequence[SuiteJob]) -> Iterator[Result]:
         """The results of jobs in their order."""
-        for max_seconds, some in groupby(jobs, lambda job: job.max_seconds):
-            yield from self._run(list(some), max_seconds)
+        for _, some in groupby(jobs, lambda job: job.max_seconds):
+            yield from self._run(list(some))
 
-    def _run(self, jobs: Sequence[SuiteJob], max_seconds: float) -> Iterator[Result]:
+    def _run(self, jobs: Sequence[SuiteJob]) -> Iterator[Result]:
         """The results of jobs with one time limit, in their order."""
         extras = self._setup.extras
-        crew = self._crew(min(MAX_TOGETHER, len(jobs)), max_seconds)
+        crew = self._crew(min(MAX_TOGETHER, len(jobs)), jobs[0])
         found, done = dict[int, Result](), 0
         for number, driven in drive_together(*crew, jobs):
             found[number] = jobs[number].result(driven, extras)
@@ -195,27 +208,25 @@ class SuiteRunner:
                 yield found.pop(done)
                 done += 1
 
-    def _crew(self, robots: int, max_seconds: float) -> tuple[SemNavVectorEnv, AgentTeam]:
-        """An environment of some robots and the team that drives them, made once for each number.
+    def _crew(self, robots: int, job: SuiteJob) -> tuple[SemNavVectorEnv, AgentTeam]:
+        """An environment of some robots and the team that drives them, made once for each kind.
 
         Args:
             robots: number of them.
-            max_seconds: time limit of an episode, simulated seconds.
+            job: one of those for which they are; searches have a time limit of their own.
         """
-        crew = self._crews.get((robots, max_seconds))
+        crew = self._crews.get((robots, job.max_seconds))
         if crew is None:
             team = make_team(self._setup.agent, robots)
-            envs = SemNavVectorEnv(
+            make = search_and_rescue_vector if job.is_search else SemNavVectorEnv
+            envs = make(
                 robots,
-                robot=self._setup.robot,
                 observation=team.observation,
-                lidar=self._setup.lidar,
-                dynamics=self._setup.dynamics,
-                max_seconds=max_seconds,
                 threads=1,
                 autoreset_mode="Disabled",
+                **_options(self._setup, job),
             )
-            crew = self._crews[robots, max_seconds] = envs, team
+            crew = self._crews[robots, job.max_seconds] = envs, team
         return crew
 
     def _film(self, job: SuiteJob, folder: Path) -> None:
@@ -241,14 +252,21 @@ def make_env(
         observation: that of its agent.
         render_mode: "rgb_array" or "human".
     """
-    return SemNavEnv(
-        setup.robot,
-        observation=observation,
-        lidar=setup.lidar,
-        dynamics=setup.dynamics,
-        max_seconds=job.max_seconds,
-        render_mode=render_mode,
-    )
+    make = search_and_rescue if job.is_search else SemNavEnv
+    return make(observation=observation, render_mode=render_mode, **_options(setup, job))
+
+
+def _options(setup: SuiteSetup, job: SuiteJob) -> dict[str, Any]:
+    """The options of an environment that the suite and the kind of a job decide."""
+    dynamics = setup.dynamics
+    if job.is_search:
+        dynamics = replace(dynamics, victims=dynamics.victims or VICTIMS)
+    return {
+        "robot": setup.robot,
+        "lidar": setup.lidar,
+        "dynamics": dynamics,
+        "max_seconds": job.max_seconds,
+    }
 
 
 def conclude(

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
-from semnav_env.judge.episodes import SPLITS
+from semnav_env.judge.episodes import SPLITS, Episode
 from semnav_env.language.suggest import did_you_mean
 from semnav_features.frames import Pose
+
+SEARCH = "search the house"
+"""The command of a search; no other trial has it among its clauses."""
 
 
 @dataclass(frozen=True)
@@ -30,6 +35,11 @@ class Trial:
     def group(self) -> str:
         """Name of its group in tables: the plan and the command."""
         return f"{self.floor_plan}: {self.command}"
+
+    @property
+    def is_search(self) -> bool:
+        """Whether people are searched, which needs a person detector, victims and time."""
+        return self.command == SEARCH
 
 
 def _trials(floor_plan: str, pose: Pose, *commands: str) -> tuple[Trial, ...]:
@@ -88,45 +98,127 @@ _FROM_BEND = _trials(
     "go down the hallway, turn left and take the first door on the right",
 )
 
-_VILLA_HALL = (
-    *_trials(
-        "villa_hall",
-        (1.0, 1.0, math.pi / 2),
-        "turn left at the next corner",
+_UP_THE_SOUTH_ARM, _DOWN_THE_SOUTH_ARM = (1.0, 1.0, math.pi / 2), (1.2, 3.7, -math.pi / 2)
+_FROM_THE_WEST_END, _UP_THE_WEST_ARM = (-5.4, 4.35, 0.0), (-3.0, 4.35, 0.0)
+_DOWN_THE_WEST_ARM = (-1.5, 4.35, math.pi)
+_IN_THE_PARENTS_ROOM, _IN_THE_DAUGHTERS_ROOM = (-8.2, 4.4, 0.0), (-4.2, 7.0, -math.pi / 2)
+_IN_THE_KITCHEN, _IN_THE_LIVING_ROOM = (0.5, -1.9, math.pi / 2), (4.8, 2.4, math.pi)
+
+_in_the_villa = partial(_trials, "villa_hall")
+
+_VILLA_DOORS = (
+    *_in_the_villa(
+        _DOWN_THE_SOUTH_ARM,
+        "go through the first door on the left",
+        "go through the door at the end of the hallway",
+    ),
+    *_in_the_villa(
+        _DOWN_THE_WEST_ARM, "go through the first door on the right", "go through the last door"
+    ),
+    *_in_the_villa(
+        _UP_THE_SOUTH_ARM,
         "turn left at the corner and go through the first door on the right",
+        "turn left at the corner and go through the door at the end of the hallway",
+    ),
+    *_in_the_villa(
+        _UP_THE_WEST_ARM,
+        "turn right at the corner and go through the first door on the left",
+        "turn right at the corner and go through the door at the end of the hallway",
+        "go down the hallway, turn right at the corner and go through the second door",
+    ),
+    *_in_the_villa(_FROM_THE_WEST_END, "take the first door on the left"),
+)
+
+_VILLA_TURNS = (
+    *_in_the_villa(
+        _UP_THE_SOUTH_ARM,
+        "turn left at the next corner",
+        "go to the end of the hallway",
+        "turn left at the corner and follow the hallway until the end",
+    ),
+    *_in_the_villa(
+        _UP_THE_WEST_ARM,
+        "turn right at the next corner",
+        "follow the hallway to the corner",
+        "turn right at the corner and go to the end of the hallway",
+    ),
+    *_in_the_villa(_FROM_THE_WEST_END, "go down the hallway and turn right at the corner"),
+    *_in_the_villa((1.2, 2.4, math.pi / 2), "turn around", "turn left at the corner"),
+    *_in_the_villa(_DOWN_THE_SOUTH_ARM, "follow the hallway until the end"),
+)
+
+_VILLA_ROOMS = (
+    *_in_the_villa(
+        _UP_THE_SOUTH_ARM,
         "go to the parents' bedroom",
         "go to the daughter's room",
-    ),
-    *_trials("villa_hall", (1.2, 3.7, -math.pi / 2), "go through the first door on the left"),
-    *_trials(
-        "villa_hall",
-        (-3.0, 4.35, 0.0),
-        "turn right at the next corner",
         "go to the living room",
-        "go to the kitchen",
     ),
-    *_trials("villa_hall", (-5.4, 4.35, 0.0), "take the first door on the left"),
-    *_trials("villa_hall", (-1.5, 4.35, math.pi), "go through the first door on the right"),
+    *_in_the_villa(_UP_THE_WEST_ARM, "enter the living room", "go to the kitchen"),
+    *_in_the_villa(_DOWN_THE_SOUTH_ARM, "enter the kitchen", "go into the living room"),
+    *_in_the_villa(_DOWN_THE_WEST_ARM, "enter the parents' room"),
+    *_in_the_villa(_FROM_THE_WEST_END, "enter the daughter's room", "go into the kitchen"),
+)
+
+_VILLA_EXITS = (
+    *_in_the_villa(
+        _IN_THE_PARENTS_ROOM, "leave the room", "leave the room and turn right at the corner"
+    ),
+    *_in_the_villa(
+        _IN_THE_DAUGHTERS_ROOM,
+        "exit the room",
+        "leave the room and go through the first door on the right",
+    ),
+    *_in_the_villa(
+        _IN_THE_KITCHEN,
+        "leave this room",
+        "leave the room and turn left at the corner",
+        "leave the room and go to the living room",
+    ),
+    *_in_the_villa(_IN_THE_LIVING_ROOM, "get out of the room", "exit the room and turn left"),
+    *_in_the_villa((4.8, 2.4, 0.0), "go out of the room"),
+)
+
+_VILLA_SEARCH = (
+    *_in_the_villa(_UP_THE_SOUTH_ARM, SEARCH),
+    *_in_the_villa(_DOWN_THE_SOUTH_ARM, SEARCH),
+    *_in_the_villa(_FROM_THE_WEST_END, SEARCH),
+    *_in_the_villa(_UP_THE_WEST_ARM, SEARCH),
+    *_in_the_villa(_DOWN_THE_WEST_ARM, SEARCH),
 )
 
 SUITES = {
     "heidelberg": _HEIDELBERG,
     "office_cross": _FROM_WEST + _FROM_EAST + _FROM_SOUTH + _FROM_BEND,
-    "villa_hall": _VILLA_HALL,
+    "villa_doors": _VILLA_DOORS,
+    "villa_turns": _VILLA_TURNS,
+    "villa_rooms": _VILLA_ROOMS,
+    "villa_exits": _VILLA_EXITS,
+    "villa_search": _VILLA_SEARCH,
 }
-"""The suites by name; each is in the floor plan whose name it has, or begins with."""
+"""The suites by name. Those of the villa are in the hall of Mes 2021."""
+
+JOINED = {
+    "villa": ("villa_doors", "villa_turns", "villa_rooms", "villa_exits"),
+    "all": tuple(name for name in SUITES if name != "villa_search"),
+}
+"""Names of several suites at once. `villa_search` is in none: it needs an agent that can search."""
 
 
 def suite(name: str) -> tuple[Trial, ...]:
-    """The trials of a suite, or of all suites for "all".
+    """The trials of a suite, or of the suites that a name of `JOINED` stands for.
 
     Raises:
         ValueError: there is no such suite; the error lists the suites.
     """
-    if name == "all":
-        return tuple(trial for trials in SUITES.values() for trial in trials)
-    if name not in SUITES:
-        there = f"{', '.join(SUITES)}, all, and the splits {', '.join(SPLITS)}"
-        hint = did_you_mean(name, (*SUITES, "all", *SPLITS))
+    if name not in SUITES and name not in JOINED:
+        there = f"{', '.join((*SUITES, *JOINED))}, and the splits {', '.join(SPLITS)}"
+        hint = did_you_mean(name, (*SUITES, *JOINED, *SPLITS))
         raise ValueError(f"no suite {name!r:.80}; there are: {there}{hint}")
-    return SUITES[name]
+    return tuple(trial for each in JOINED.get(name, (name,)) for trial in SUITES[each])
+
+
+def usual_agent(trials: Sequence[Trial | Episode]) -> str:
+    """Name of the agent that drives them if none is named."""
+    searches = any(isinstance(each, Trial) and each.is_search for each in trials)
+    return "searcher" if searches else "scripted"

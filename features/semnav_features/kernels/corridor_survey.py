@@ -27,7 +27,7 @@ from semnav_features.kernels.corridor_rays import (
     way_back,
 )
 from semnav_features.kernels.heading import prevailing_heading
-from semnav_features.kernels.narrowings import is_narrowing
+from semnav_features.kernels.narrowings import is_narrowing, leads_into_arm
 from semnav_features.kernels.rows import put_row
 from semnav_features.kernels.selection import finite_values, value_of_rank
 from semnav_features.kernels.side_openings import MAX_OPENINGS, OPENING, note_opening
@@ -65,7 +65,7 @@ def survey(
     Args:
         walls: x1, y1, x2, y2, metres, shape (n, 4).
         doors: the same, shape (m, 4). A door closes its gap, unless the robot stands in it, or it
-            is not certain and the corridor only narrows there.
+            is not certain and the corridor only narrows there, or an arm of it begins.
         certain: which doors are known to be doors, shape (m,).
         x: of the robot, metres.
         y: the same.
@@ -164,12 +164,19 @@ def _solid(
     for i in range(len(doors)):
         if stands_in(doors[i], *pose):
             continue
-        doubtful = not certain[i] and _is_across(doors[i], pose[2])
-        if doubtful and is_narrowing(doors[i], known):
+        if not certain[i] and _is_hall(doors[i], pose, known):
             continue
         put_row(solid, count, doors[i])
         count += 1
     return solid[:count]
+
+
+@kernel
+def _is_hall(door: FloatArray, pose: Frame, known: FloatArray) -> bool:
+    """Whether a perceived door is none: the corridor narrows there, or an arm of it begins."""
+    if _is_across(door, pose[2]):
+        return is_narrowing(door, known)
+    return leads_into_arm(door, known, pose[0], pose[1])
 
 
 @kernel

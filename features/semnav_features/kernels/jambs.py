@@ -11,6 +11,10 @@ from semnav_features.kernels.compiling import kernel
 MAX_REVEAL_LENGTH = 0.5
 """Longest piece that may be a reveal, the side of a jamb, metres: walls are hardly thicker."""
 
+EDGE_BEAMS = 2
+"""A piece that ends within this many beams of the edge of the field of view may go on outside it,
+so its end there is none: a wall that is seen past a corner looks like a reveal."""
+
 
 @kernel
 def find_jambs(groups: int, pieces: int, scratch: Any) -> tuple[int, int]:
@@ -41,14 +45,14 @@ def find_jambs(groups: int, pieces: int, scratch: Any) -> tuple[int, int]:
                 jamb = scratch.end_jambs[ends]
                 write_jamb(jamb, piece.start_x, piece.start_y, scratch.beams[piece.first], k)
                 ends += 1
-            if starts < most and piece.last == last and is_start_reveal(found, k):
+            if starts < most and piece.last == last and is_start_reveal(found, k, scratch):
                 jamb = scratch.start_jambs[starts]
                 write_jamb(jamb, piece.start_x, piece.start_y, scratch.beams[piece.first], k - 1)
                 jamb.is_reveal = True
                 starts += 1
             if piece.last > last:
                 break
-            if ends < most and piece.first == first and is_end_reveal(found[:pieces], k):
+            if ends < most and piece.first == first and is_end_reveal(found[:pieces], k, scratch):
                 jamb = scratch.end_jambs[ends]
                 write_jamb(jamb, piece.end_x, piece.end_y, scratch.beams[piece.last], k + 1)
                 jamb.is_reveal = True
@@ -72,7 +76,7 @@ def find_jambs(groups: int, pieces: int, scratch: Any) -> tuple[int, int]:
 
 
 @kernel
-def is_start_reveal(pieces: np.ndarray, k: int) -> bool:
+def is_start_reveal(pieces: np.ndarray, k: int, scratch: Any) -> bool:
     """Whether the last piece of a group may be the reveal of the jamb where an opening starts.
 
     It recedes from the scanner in beam order, and no piece meets it at its near end: too few beams
@@ -80,14 +84,17 @@ def is_start_reveal(pieces: np.ndarray, k: int) -> bool:
     """
     piece = pieces[k]
     is_free = k == 0 or pieces[k - 1].last < piece.first
+    is_free &= scratch.beams_per_turn > 0 or scratch.beams[piece.first] >= EDGE_BEAMS
     return bool(is_free and piece.length <= MAX_REVEAL_LENGTH and recession(piece) > 0.0)
 
 
 @kernel
-def is_end_reveal(pieces: np.ndarray, k: int) -> bool:
+def is_end_reveal(pieces: np.ndarray, k: int, scratch: Any) -> bool:
     """The mirror image of `is_start_reveal`, for the first piece of a group."""
     piece = pieces[k]
     is_free = k + 1 == len(pieces) or pieces[k + 1].first > piece.last
+    last = scratch.beam_count - 1 - EDGE_BEAMS
+    is_free &= scratch.beams_per_turn > 0 or scratch.beams[piece.last] <= last
     return bool(is_free and piece.length <= MAX_REVEAL_LENGTH and recession(piece) < 0.0)
 
 

@@ -1,4 +1,4 @@
-"""Tells a corridor that narrows to the width of a door from a door across the corridor."""
+"""Tells corridors as narrow as a door from doors: one that narrows, and one that leads away."""
 
 from __future__ import annotations
 
@@ -41,6 +41,14 @@ MIN_CORRIDOR_SIDE = 2.5
 """A corridor goes on if this length of either side is there, before and behind the opening,
 metres."""
 
+MIN_ARM_SIDE = 2.0
+"""Both sides of a hall that leads away from an opening are at least this long, metres: longer than
+those of a niche, or of a small room behind a door."""
+
+MAX_ARM_SETBACK_STEP = 2
+"""Each of these sides lies at most this many steps outside the jamb: less than 0.14 m. A room is
+wider than its door."""
+
 SETBACK_STEPS = 10
 """Steps from a jamb outward to `MAX_SETBACK` in which a side is recorded."""
 
@@ -79,6 +87,25 @@ def is_narrowing(door: FloatArray, solid: FloatArray) -> bool:
         if _runs(here, MIN_THROUGH_SIDE) and _runs_through(here, beyond):
             return True
     return False
+
+
+@kernel
+def leads_into_arm(door: FloatArray, solid: FloatArray, x: float, y: float) -> bool:
+    """Whether a hall as wide as the opening leads away from it, behind it as seen from (x, y).
+
+    Args:
+        door: the opening's jambs, shape (4,), metres.
+        solid: walls and doors, shape (n, 4), metres; the opening may be among them.
+        x: of a place before the opening, metres.
+        y: the same.
+    """
+    dx, dy = door[2] - door[0], door[3] - door[1]
+    if dx == 0.0 and dy == 0.0:
+        return False
+    close, _ = _sides(door, solid)
+    behind = close[1] if dx * (y - door[1]) > dy * (x - door[0]) else close[0]
+    right = _leads_up(behind[0], MAX_ARM_SETBACK_STEP, MIN_ARM_SIDE)
+    return bool(right and _leads_up(behind[1], MAX_ARM_SETBACK_STEP, MIN_ARM_SIDE))
 
 
 @kernel

@@ -12,6 +12,7 @@ import numpy as np
 from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.corridor_rays import PROBE_SPACING, PROBED_BEHIND
+from semnav_features.kernels.narrowings import leads_into_arm
 
 MIN_OPENING_WIDTH = 1.35
 """Least length for which a side steps back at an opening, metres; a doorway is shorter."""
@@ -19,9 +20,13 @@ MIN_OPENING_WIDTH = 1.35
 MIN_EDGED_OPENING_WIDTH = 1.25
 """Least length of an opening from both of whose edges walls lead out, metres."""
 
-MIN_BEND_WIDTH = 0.95
+MIN_BEND_WIDTH = 0.85
 """Least length of an opening at the end of the corridor from which the wall across leads out, the
 mouth of the narrowest corridor, metres: elsewhere it would be a doorway."""
+
+MIN_ARM_WIDTH = 0.75
+"""Least length of an opening that leads into an arm, between both of whose sides it lies, metres:
+that of the narrowest corridor, 0.9 m, of which one probe may miss the opening."""
 
 MAX_LEAF_LENGTH = 1.2
 """A wall must lead out this far at an edge of an opening, metres: farther than any door leaf."""
@@ -68,7 +73,7 @@ def note_opening(
     """
     near = (first - 0.5) * PROBE_SPACING - PROBED_BEHIND
     far = (last - 0.5) * PROBE_SPACING - PROBED_BEHIND
-    if far - near < MIN_BEND_WIDTH + slack or count == len(openings):
+    if far - near < MIN_ARM_WIDTH + slack or count == len(openings):
         return count
     nearer, farther = _leads_out(solid, sign, near, offset), _leads_out(solid, sign, far, offset)
     least = MIN_OPENING_WIDTH if nearer or farther else math.inf
@@ -76,11 +81,22 @@ def note_opening(
         least = MIN_EDGED_OPENING_WIDTH
     if farther and is_at_end:
         least = MIN_BEND_WIDTH
-    if far - near < least + slack:
+    if far - near < min(least, MIN_OPENING_WIDTH) + slack:
+        if not _leads_into_arm(solid, near, far, sign * offset):
+            return count
+    elif far - near < least + slack:
         return count
     opening = openings[count]
     opening.left, opening.near, opening.far, opening.offset = sign > 0.0, near, far, offset
     return count + 1
+
+
+@kernel
+def _leads_into_arm(solid: FloatArray, near: float, far: float, side: float) -> bool:
+    """Whether an arm leads outwards from the stretch [near, far] of the side at y = `side`."""
+    mouth = np.empty(4)
+    mouth[0], mouth[1], mouth[2], mouth[3] = near, side, far, side
+    return leads_into_arm(mouth, solid, 0.5 * (near + far), 0.0)
 
 
 @kernel

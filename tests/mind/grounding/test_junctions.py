@@ -6,6 +6,7 @@ import math
 
 import pytest
 
+from semnav_env.mind.grounding.counted_doors import doors_along
 from semnav_features.corridor import corridor_at
 from semnav_features.scene import Door, Scene, Wall
 from tests.support.corridors import START, ways_on, with_walls
@@ -121,7 +122,46 @@ def test_a_narrow_opening_needs_walls_at_both_edges(width: float, narrow: bool, 
     assert ways_on(seen) == ([] if narrow and edges != "both" else [(True, False, True)])
 
 
-@pytest.mark.parametrize(("width", "bends"), [(0.8, False), (1.1, True), (1.3, True)])
+def side_arm(width: float, depth: float, setback: float = 0.0) -> Scene:
+    """A hall along x, 2 m wide, with a gap in its left side from x = 6 and what lies behind it.
+
+    Args:
+        width: of the gap, metres.
+        depth: of the walls that lead away from it, metres.
+        setback: how far outside its edges these walls lie, metres.
+    """
+    far = 6.0 + width
+    sides = polyline((-3.0, 1.0), (6.0, 1.0)) + polyline((far, 1.0), (14.0, 1.0), (14.0, -1.0))
+    walls = [Wall((x, 1.0), (x, 1.0 + depth)) for x in (6.0 - setback, far + setback)]
+    return Scene((*sides, *walls, Wall((14.0, -1.0), (-3.0, -1.0))))
+
+
+@pytest.mark.parametrize("width", [0.9, 1.0, 1.1, 1.2])
+def test_an_arm_may_be_as_narrow_as_a_door_also_where_one_was_seen(width: float) -> None:
+    """A hall that leads away between both edges is no room: the door in its mouth is none."""
+    arm = side_arm(width, 3.0)
+    door = Door((6.0, 1.0), (6.0 + width, 1.0), confidence=0.9)
+    for scene in (arm, Scene(arm.walls, (door,))):
+        assert ways_on(corridor_at(scene, START)) == [(True, False, True)]
+        assert not doors_along(scene, corridor_at(scene, START))
+
+
+@pytest.mark.parametrize(("depth", "setback"), [(1.5, 0.0), (3.0, 0.3)], ids=["niche", "room"])
+def test_a_niche_and_a_room_wider_than_its_door_are_no_arms(depth: float, setback: float) -> None:
+    behind = side_arm(1.0, depth, setback)
+    door = Door((6.0, 1.0), (7.0, 1.0), confidence=0.9)
+    for scene in (behind, Scene(behind.walls, (door,))):
+        assert corridor_at(scene, START).junctions == ()
+    assert [each.door for each in doors_along(scene, corridor_at(scene, START))] == [door]
+
+
+def test_a_door_of_a_floor_plan_stays_one_before_an_arm() -> None:
+    door = Door((6.0, 1.0), (7.0, 1.0), name="of the plan")
+    scene = Scene(side_arm(1.0, 3.0).walls, (door,))
+    assert corridor_at(scene, START).junctions == ()
+
+
+@pytest.mark.parametrize(("width", "bends"), [(0.7, False), (0.9, True), (1.1, True), (1.3, True)])
 @pytest.mark.parametrize("sees_near_edge", [True, False])
 def test_a_hall_may_bend_into_one_as_narrow_as_a_door(
     width: float, bends: bool, sees_near_edge: bool

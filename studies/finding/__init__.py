@@ -1,0 +1,1 @@
+"""Three ways of finding somebody in a house, compared: look around, look from places, and call."""
