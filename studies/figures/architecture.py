@@ -58,6 +58,7 @@ ABOUT = {
     "semnav_env/vector": "many robots in one environment",
     "semnav_env/world/physics": "the physics; the only folder that imports Pymunk",
     "semnav_agents": "scripted, oracle and learned agents, and floors, behind one protocol",
+    "semnav_agents/assistance": "shared control: a person or an agent drives, the robot helps",
     "semnav_agents/evaluation": "suites of episodes, driven and judged",
     "semnav_agents/hearing": "agents that hear the command: a learned grounding for the planner",
     "semnav_agents/learning": "training and its files",
@@ -70,6 +71,8 @@ ABOUT = {
     "semnav_ros": "a robot's own node: its core without ROS, and what carries its messages",
     "semnav_scripts": "the `semnav` command",
     "semnav_scripts/page": "the page of `semnav serve`: requests, sessions, server, web files",
+    "semnav_scripts/playing": "driving by hand: `semnav play`",
+    "semnav_scripts/report": "the report of an evaluation: one HTML file, with a gallery of failures",
     "semnav_scripts/report": "the report of an evaluation: one HTML file, with its failures",
     "semnav_scripts/recording": "recordings of a followed command, for Rerun and Foxglove",
 }
