@@ -72,7 +72,6 @@ ABOUT = {
     "semnav_scripts": "the `semnav` command",
     "semnav_scripts/page": "the page of `semnav serve`: requests, sessions, server, web files",
     "semnav_scripts/playing": "driving by hand: `semnav play`",
-    "semnav_scripts/report": "the report of an evaluation: one HTML file, with a gallery of failures",
     "semnav_scripts/report": "the report of an evaluation: one HTML file, with its failures",
     "semnav_scripts/recording": "recordings of a followed command, for Rerun and Foxglove",
 }
