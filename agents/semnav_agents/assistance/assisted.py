@@ -62,6 +62,10 @@ class Assisted:
         changed: whether the last action was not the driver's own.
     """
 
+    driver: Agent
+    active: bool
+    changed: bool
+
     def __init__(self, driver: Agent, doors: bool = True) -> None:
         self.driver, self._doors = driver, doors
         mode = driver.observation
