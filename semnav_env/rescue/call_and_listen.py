@@ -37,6 +37,8 @@ class CallAndListen:
         voices: the directions of each person's voice, by number of the person.
     """
 
+    settings: MicrophoneSettings
+
     def __init__(self, settings: MicrophoneSettings = USUAL_MICROPHONES) -> None:
         self.settings = settings
 

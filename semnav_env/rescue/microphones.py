@@ -85,6 +85,8 @@ class MicrophoneArray:
         rng: draws who can answer, and later the errors.
     """
 
+    settings: MicrophoneSettings
+
     def __init__(
         self, plan: FloorPlan, settings: MicrophoneSettings, rng: np.random.Generator
     ) -> None:
