@@ -46,7 +46,7 @@ def test_values_sides_and_rooms_are_taken_out() -> None:
         ("twenty third door on the left", (23.0,)),
         ("go 0 metres", (0.0,)),
         ("go 0.1 metres", (0.5,)),
-        ("go 40 inches", (1.0,)),
+        ("go 80 inches", (2.0,)),
         ("fahr 80 Zoll vor", (2.0,)),
         ("fahr 10 Fuß vor", (3.0,)),
     ],

@@ -98,7 +98,7 @@ def test_the_nearest_cell_is_the_first_of_all_that_are_as_near(
 
 @given(st.floats(-9.0, 9.0), st.floats(-9.0, 9.0), st.integers(0, 4), st.integers(1, 4))
 def test_the_cell_of_a_middle_is_that_cell(x: float, y: float, before: int, after: int) -> None:
-    grid = Grid.over((x, y), (x + 3.05, y + 1.0), 0.1, before, after)
+    grid = Grid.over((x, y), (x + 3.05, y + 0.95), 0.1, before, after)
     assert grid.shape == (10 + before + after, 31 + before + after)
     cells = np.argwhere(np.ones(grid.shape, bool))
     points = grid.points(cells)

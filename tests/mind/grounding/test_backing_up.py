@@ -85,7 +85,7 @@ def test_only_a_distance_backwards_is_backed_up(text: str, meant: str) -> None:
 
 def test_who_goes_back_some_metres_is_asked_whether_to_turn_round() -> None:
     with pytest.raises(AmbiguousCommandError) as asked:
-        parse("go back two metres")
+        parse("go back for two metres")
     ways = ("turn around and go down the hallway for 2 metres", "back up for 2 metres")
     assert set(asked.value.readings) == set(map(parse, ways))
 

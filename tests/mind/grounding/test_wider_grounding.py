@@ -105,7 +105,7 @@ def test_a_turn_by_degrees_is_made_on_the_spot(degrees: int, side: str, sign: fl
         ("take the first right", SIDE_ARMS, 9.0),
         ("take the first left", X_JUNCTION, 7.0),
         ("take the first left", L_LEFT, 13.0),
-        ("take the last left", T_JUNCTION, 13.0),
+        ("turn left at the last turning", T_JUNCTION, 13.0),
         ("turn left at the T-junction", T_JUNCTION, 13.0),
         ("go past the first door on the left and turn left", X_JUNCTION, 7.0),
     ],
