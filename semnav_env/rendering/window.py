@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from semnav_env.rendering.backend import load_pygame
+
+UNSEEN = "offscreen"
+"""What SDL takes where it finds no display; nobody sees its windows, or could close them."""
 
 
 class Window:
@@ -23,6 +27,9 @@ class Window:
         self._pygame, self._fps = load_pygame(), fps
         try:
             self._pygame.display.init()
+            if self._pygame.display.get_driver() == UNSEEN and "SDL_VIDEODRIVER" not in os.environ:
+                self._pygame.display.quit()
+                raise self._pygame.error("none was found")
             self._screen = self._pygame.display.set_mode(size)
         except self._pygame.error as error:
             raise RuntimeError(

@@ -19,7 +19,7 @@ def save_finding(path: Path, found: dict[str, list[WayResult]]) -> None:
         shares.step([0.0, *errors], np.arange(len(errors) + 1) / len(errors), label=name)
     shares.set(xlim=(0.01, 100), ylim=(0, 1), xscale="log", xlabel="error of the place, m")
     shares.set_ylabel("share of people")
-    shares.legend(loc="upper right", fontsize="small")
+    shares.legend(loc="lower right", fontsize="small")
     times.boxplot(
         [[one.seconds for one in each] for each in found.values()], orientation="horizontal"
     )

@@ -87,6 +87,20 @@ def test_a_window_without_a_display_is_refused() -> None:
     assert '"rgb_array" needs none' in done.stderr
 
 
+def test_a_window_that_nobody_would_see_is_refused() -> None:
+    displays = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER", "XDG_RUNTIME_DIR")
+    bare = {name: value for name, value in os.environ.items() if name not in displays}
+    done = subprocess.run(
+        [sys.executable, "-c", f"{IMPORTS}Viewer(PLAN).show(PLAIN)"],
+        env=bare | {"PYTHONPATH": str(ROOT)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode != 0
+    assert 'RuntimeError: render_mode="human" needs a display' in done.stderr
+
+
 def test_missing_pygame_is_reported_only_when_drawing() -> None:
     code = (
         "import sys; sys.modules['pygame'] = None\n"
