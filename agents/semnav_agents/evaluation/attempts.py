@@ -83,13 +83,27 @@ def write_attempts(attempts: Iterable[Attempt], path: Path) -> None:
     write_file(path, gzip.compress(text.encode(), mtime=0))
 
 
-def _attempt(line: str, place: str) -> Attempt:
+def result_row(line: str, place: str) -> dict[str, Any]:
+    """The fields of a line of results.
+
+    Args:
+        line: of the file.
+        place: what errors call it.
+
+    Raises:
+        ValueError: it is no JSON, or no object.
+    """
     try:
         row = json.loads(line)
     except (ValueError, RecursionError) as error:
         raise ValueError(f"{place}: is no JSON: {clipped(str(error))}") from None
     if not isinstance(row, dict):
         raise ValueError(f"{place}: is a {type(row).__name__}; a result is an object")
+    return row
+
+
+def _attempt(line: str, place: str) -> Attempt:
+    row = result_row(line, place)
     if row.get("dynamics"):
         with_what = f"was driven with {shown(row['dynamics'])}"
         raise ValueError(f"{place}: {with_what}; the table is of drives where nothing else moves")

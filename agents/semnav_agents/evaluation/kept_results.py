@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from semnav_agents.evaluation.attempts import MAX_BYTES
+from semnav_agents.evaluation.attempts import MAX_BYTES, result_row
 from semnav_agents.evaluation.runner import SuiteJob, SuiteSetup
 from semnav_agents.evaluation.suites import SUITES
 from semnav_env.judge.episodes import SPLITS, find_episode
 from semnav_env.plain_settings import from_plain
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_features.decompression import read_lines
-from semnav_features.validation import clipped, shown
+from semnav_features.validation import shown
 
 TEXT = ("agent", "robot", "split")
 """Fields that every row has, as texts."""
@@ -58,7 +57,7 @@ def read_kept_result(path: Path, which: str = "", episodes: Path | None = None) 
     lines = read_lines(path, MAX_BYTES)
     number = _number_of(path, lines, which)
     place = f"{path}:{number + 1}"
-    row = _object(lines[number], place)
+    row = result_row(lines[number], place)
     for name, kind in (*((name, str) for name in TEXT), ("success", bool)):
         if type(row.get(name)) is not kind:
             said = shown(row.get(name))
@@ -85,14 +84,14 @@ def is_results(path: Path) -> bool:
         OSError: it cannot be read.
     """
     lines = read_lines(path, MAX_BYTES)
-    return bool(lines) and "agent" in _object(lines[0], f"{path}:1")
+    return bool(lines) and "agent" in result_row(lines[0], f"{path}:1")
 
 
 def _number_of(path: Path, lines: Sequence[str], which: str) -> int:
     """The number of the line that is asked for, from 0."""
     if which.isascii() and which.isdigit() and 1 <= int(which[:9]) <= len(lines):
         return int(which) - 1
-    rows = (_object(line, f"{path}:{n}") for n, line in enumerate(lines, 1))
+    rows = (result_row(line, f"{path}:{n}") for n, line in enumerate(lines, 1))
     for number, row in enumerate(rows):
         if row.get("episode") == which if which else row.get("success") is False:
             return number
@@ -100,16 +99,6 @@ def _number_of(path: Path, lines: Sequence[str], which: str) -> int:
         told = f"the id of an episode, or a line from 1 to {len(lines)}"
         raise ValueError(f"{path}: has no result {which!r:.80}; give {told}")
     raise ValueError(f"{path}: nothing failed there; give {path}:ID, or the number of a line")
-
-
-def _object(line: str, place: str) -> dict[str, Any]:
-    try:
-        row = json.loads(line)
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"{place}: is no JSON: {clipped(str(error))}") from None
-    if not isinstance(row, dict):
-        raise ValueError(f"{place}: is a {type(row).__name__}; a result is an object")
-    return row
 
 
 def _job(row: dict[str, Any], path: Path, place: str, episodes: Path | None) -> SuiteJob:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from shapely import Polygon
+from shapely import LineString, Polygon
 
 from semnav_env.world.maps.doorways import DRAWING_TOLERANCE
 from semnav_env.world.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
@@ -65,6 +65,19 @@ def with_leaves(plan: FloorPlan) -> FloorPlan:
                 taken.append(_swept(leaf))
                 hung.append(Surface((leaf.hinge, leaf.tip(leaf.swing)), Material.LEAF))
     return replace(plan, surfaces=(*plan.surfaces, *hung)) if hung else plan
+
+
+def without_leaves_at(hung: FloorPlan, plan: FloorPlan, body: Polygon) -> FloorPlan:
+    """The plan without the leaves that `with_leaves` hung where a body stands.
+
+    Args:
+        hung: the plan with leaves.
+        plan: the plan before.
+        body: what it covers, world frame.
+    """
+    added = hung.surfaces[len(plan.surfaces) :]
+    rest = tuple(leaf for leaf in added if not body.intersects(LineString(leaf.points)))
+    return hung if len(rest) == len(added) else replace(hung, surfaces=(*plan.surfaces, *rest))
 
 
 def swinging_leaves(plan: FloorPlan) -> tuple[tuple[PlanLeaf, ...], FloorPlan]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,8 @@ import numpy as np
 from semnav_env.robots import RobotSpec
 from semnav_env.world.dynamics.settings import Dynamics
 from semnav_env.world.maps import FloorPlan, load_floor_plan
-from semnav_features.frames import Point
+from semnav_env.world.maps.placement import footprint
+from semnav_features.frames import Pose
 from semnav_features.validation import check_kind
 
 
@@ -53,7 +55,7 @@ class PlanSource:
         """
         plan = load_floor_plan(floor_plan or self._default)
         if self.dynamics.changing_doors:
-            plan = self._hung_with_leaves(plan)
+            plan = self._hung_with_leaves(plan, _pose(pose))
         if rng is None or not self.dynamics.furnishes:
             return plan
         from semnav_env.world.dynamics.furniture import (
@@ -61,23 +63,30 @@ class PlanSource:
         )
         from semnav_env.world.dynamics.victims import with_victims
 
-        keep = _point(pose)
+        start = _pose(pose)
+        keep = start and start[:2]
         plan = with_moved_furniture(plan, self.dynamics, self._robot, rng, keep)
         return with_victims(plan, self.dynamics.victims, self._robot, rng, keep)
 
-    def _hung_with_leaves(self, plan: FloorPlan) -> FloorPlan:
-        """The plan with leaves; the same object for the same plan."""
+    def _hung_with_leaves(self, plan: FloorPlan, start: Pose | None) -> FloorPlan:
+        """The plan with leaves, but none where the robot starts; usually the same object."""
+        from semnav_env.world.dynamics.leaves import (  # most plans do not change
+            with_leaves,
+            without_leaves_at,
+        )
+
         if self._hung is None or plan is not self._hung[0]:
-            from semnav_env.world.dynamics.leaves import with_leaves  # most plans do not change
-
             self._hung = plan, with_leaves(plan)
-        return self._hung[1]
+        hung = self._hung[1]
+        if start is None:
+            return hung
+        return without_leaves_at(hung, plan, footprint(self._robot, start))
 
 
-def _point(pose: Any) -> Point | None:
-    """The position of a requested pose; None if it is malformed (refused elsewhere)."""
+def _pose(pose: Any) -> Pose | None:
+    """A requested pose; None if there is none, or it is malformed (refused elsewhere)."""
     try:
-        x, y, _ = (float(value) for value in pose)
+        x, y, heading = (float(value) for value in pose)
     except (TypeError, ValueError):
         return None
-    return x, y
+    return (x, y, heading) if all(map(math.isfinite, (x, y, heading))) else None

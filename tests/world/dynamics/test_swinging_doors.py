@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 import shapely
 
+from semnav_env import SemNavEnv
+from semnav_env.judge.episodes import load_episodes
 from semnav_env.world.dynamics import Dynamics, Swinging
 from semnav_env.world.dynamics.leaves import swinging_leaves, with_leaves
 from semnav_env.world.maps import bundled_names, load_floor_plan
@@ -50,6 +52,14 @@ def test_a_closed_leaf_fills_its_door(name: str) -> None:
             hinge, tip = np.array(leaf.hinge), np.array(leaf.tip(share * leaf.swing))
             swept = shapely.LineString((hinge + 0.2 * (tip - hinge), tip))
             assert len(still.solids.query(swept, predicate="intersects")) == 0
+
+
+def test_no_leaf_hangs_where_the_robot_starts() -> None:
+    """The evaluation of such a frozen episode ended with an error."""
+    [episode] = (each for each in load_episodes("val_unseen") if each.id == "val_unseen-00700")
+    env = SemNavEnv(dynamics=ALWAYS)
+    env.reset(seed=0, options={"episode": episode})
+    assert len(env.floor_plan.surfaces) > len(episode.plan().surfaces)
 
 
 def test_of_two_leaves_that_would_meet_only_one_swings() -> None:
