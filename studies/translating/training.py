@@ -2,7 +2,8 @@
 
 A network may also learn from others that have learned already, its teachers: what they say of a
 text together is a better measure of what it may mean than the one command that an author wrote
-(Hinton et al. 2015).
+(Hinton et al. 2015). Of a text whose meaning has a symbol that one of them does not know they say
+nothing.
 """
 
 from __future__ import annotations
@@ -83,8 +84,8 @@ def trained(
         settings: of the training.
         seed: of the weights and of what is drawn.
         teachers: networks whose probabilities are learned beside the texts' own meanings.
-        begun: a network of the same shape whose weights are the first ones; without it they are
-            drawn.
+        begun: a network of the same shape whose weights are the first ones, though it may know
+            fewer symbols; what it lacks is drawn.
     """
     torch.set_num_threads(1)  # a small network is slower with more, and its sums may differ
     torch.manual_seed(seed)
@@ -113,10 +114,11 @@ def _teacher(network: TranslatorNetwork) -> TorchTranslator:
 
 
 def _copy(network: TranslatorNetwork, model: TorchTranslator) -> None:
-    """Give a model the weights of a network."""
+    """Give a model the weights of a network; rows that only the model has stay."""
     with torch.no_grad():
         for name, tensor in model.named().items():
-            tensor.copy_(torch.from_numpy(network.tensors[name]))
+            known = torch.from_numpy(network.tensors[name])
+            tensor[: len(known)].copy_(known)
 
 
 def _draws(
@@ -229,12 +231,13 @@ class _Descent:
         )
         if not self._teachers:
             return own
+        known = min(each.shape.symbols for each in self._teachers)
+        counts = (wanted != NO_SYMBOL) & (wanted < known).all(dim=1, keepdim=True)
         with torch.no_grad():
-            all_seen = torch.ones_like(seen)
-            shares = [each(batch, all_seen, said).softmax(dim=2) for each in self._teachers]
-            taught = torch.stack(shares).mean(dim=0)
-        missed = -(taught * scores.log_softmax(dim=2)).sum(dim=2)
-        counts = wanted != NO_SYMBOL
-        from_teachers = (missed * counts).sum() / counts.sum()
+            all_seen, spoken = torch.ones_like(seen), said.clamp(max=known - 1)
+            shares = [each(batch, all_seen, spoken).softmax(dim=2) for each in self._teachers]
+            taught = torch.stack([each[..., :known] for each in shares]).mean(dim=0)
+        missed = -(taught * scores.log_softmax(dim=2)[..., :known]).sum(dim=2)
+        from_teachers = (missed * counts).sum() / counts.sum().clamp(min=1)
         loss: Tensor = OWN_WEIGHT * own + (1.0 - OWN_WEIGHT) * from_teachers
         return loss
