@@ -116,13 +116,14 @@ def test_a_network_never_says_a_symbol_that_it_does_not_know(symbols: int) -> No
 def after_learning(teacher: TranslatorNetwork, begun: TranslatorNetwork) -> TranslatorNetwork:
     """What has gone on learning from the canonical words of the clauses."""
     pytest.importorskip("torch")
+    from studies.translating.arrays import TextArrays
     from studies.translating.texts import TrainingText
-    from studies.translating.training import TranslatorTraining, arrays_of, trained
+    from studies.translating.training import TranslatorTraining, encoded_texts, trained
 
     shape = TranslatorShape(8, 2, 1, 16, decoder_layers=1, buckets=64, classes=32)
     settings = TranslatorTraining(steps=2, batch=4, rate=1e-3, warm_up=1, shape=shape)
     texts = [TrainingText(str(c), "en", ("kitchen",), (Command((c,)),)) for c in FINDING]
-    return trained(arrays_of(texts, shape), settings, 7, [teacher], begun)
+    return trained(TextArrays.of(encoded_texts(texts), shape), settings, 7, [teacher], begun)
 
 
 def test_going_on_learning_begins_with_the_rows_of_a_network_with_fewer_symbols() -> None:
