@@ -27,16 +27,17 @@ class CommandDrive:
     Args:
         robot: the body, with the lidar on its mount.
         lidar: its lidar.
-        agent: what drives, see `make_agent`.
+        agent: what drives, see `make_agent`; None if a navigator drives to the goals.
 
     Raises:
         ValueError: no such agent, or one that needs the floor plan or the truth.
     """
 
-    def __init__(self, robot: RobotSpec, lidar: LidarSpec, agent: AgentSource) -> None:
-        self._agent = usable_agent(agent)
-        self._observation = as_observation(self._agent.observation)
-        self._observation.space(robot, lidar)
+    def __init__(self, robot: RobotSpec, lidar: LidarSpec, agent: AgentSource | None) -> None:
+        self._agent = None if agent is None else usable_agent(agent)
+        if self._agent is not None:
+            self._observation = as_observation(self._agent.observation)
+            self._observation.space(robot, lidar)
         self._actions = Actions(robot)
         self._info: dict[str, Any] = {"robot": vars(robot).copy(), "lidar": vars(lidar).copy()}
         self.lidar = lidar
@@ -50,13 +51,19 @@ class CommandDrive:
         """
         self._told = encode(command), text
         self.tracker.begin(command)
-        self._agent.reset(self._info | {"instruction": text})
+        if self._agent is not None:
+            self._agent.reset(self._info | {"instruction": text})
 
     def update(
         self, ranges: FloatArray, odometry: Pose, bumps: Bumps, seconds: float | None
     ) -> tuple[Belief, Twist]:
-        """The belief after a scan, and the velocity of the robot's centre; see `BeliefTracker`."""
+        """The belief after a scan, and the velocity of the robot's centre; see `BeliefTracker`.
+
+        The velocity is zero where a navigator drives.
+        """
         belief = self.tracker.update(ranges, odometry, bumps=bumps, seconds=seconds)
+        if self._agent is None:
+            return belief, ORIGIN
         action = self._agent.act(self._observation.observe(Moment(self.tracker, *self._told)))
         return belief, self._actions.twist(action)
 

@@ -15,9 +15,13 @@ from cyclonedds.pub import DataWriter
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic as DdsTopic
 from cyclonedds.util import duration
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
 
 from semnav_ros.fields import Values, written
+from semnav_ros.nav2 import NAVIGATE_TO_POSE, Nav2Navigator, Nav2Server
+from semnav_ros.navigator import TakeGoal
+from semnav_ros.service_types import HEADER, SERVICE_TYPES
 from semnav_ros.topics import Topic
 from semnav_ros.wire import Take, Waiting
 
@@ -59,6 +63,14 @@ class DdsWire:
         """Wait for messages for at most this time, and give what came to who takes it."""
         self._waiting.give(seconds)
 
+    def navigator(self, action: str | None) -> Nav2Navigator:
+        """What sends goals to nav2."""
+        return Nav2Navigator(self, action or NAVIGATE_TO_POSE)
+
+    def navigator_server(self, take: TakeGoal, action: str | None) -> Nav2Server:
+        """What hears the goals of nav2 in its place."""
+        return Nav2Server(self, take, action or NAVIGATE_TO_POSE)
+
     def close(self) -> None:
         """Leave the domain."""
         self._readers.clear()
@@ -66,7 +78,7 @@ class DdsWire:
         del self._participant
 
     def _place(self, topic: Topic) -> DdsTopic[Any]:
-        return DdsTopic(self._participant, f"rt/{topic.name}", dds_type(topic.kind))
+        return DdsTopic(self._participant, f"{topic.prefix}/{topic.name}", dds_type(topic.kind))
 
 
 class _Heard(Listener):
@@ -98,19 +110,29 @@ def qos_of(topic: Topic) -> Qos:
 def dds_type(kind: str) -> type[Any]:
     """The class of a message of ROS 2, such as "sensor_msgs/LaserScan", as it is on the wire.
 
-    It is made from the definition that ROS 2 ships, which rosbags holds.
+    It is made from the definition that ROS 2 ships, which rosbags holds, or that of a service.
     """
     package, name = kind.split("/")
-    definitions = get_typestore(Stores.ROS2_HUMBLE).fielddefs[f"{package}/msg/{name}"][1]
+    group, _ = SERVICE_TYPES.get(kind, ("msg", ""))
+    definitions = _type_store().fielddefs[f"{package}/msg/{name}"][1]
     made = [_member(each, description) for each, description in definitions]
 
     def body(space: dict[str, Any]) -> None:
         space["__annotations__"] = {each: kind for each, kind, _ in made}
         space.update({each: field(default_factory=default) for each, _, default in made})
 
-    typename = f"{package}::msg::dds_::{name}_"
+    typename = f"{package}::{group}::dds_::{name}_"
     base = new_class(name, (IdlStruct,), {"typename": typename}, body)
     return dataclasses.dataclass(base)
+
+
+@cache
+def _type_store() -> Typestore:
+    """The definitions of the types."""
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    for name, (_, text) in SERVICE_TYPES.items():
+        store.register(get_types_from_msg(HEADER + text, name.replace("/", "/msg/")))
+    return store
 
 
 def _member(name: str, description: Any) -> tuple[str, Any, Any]:

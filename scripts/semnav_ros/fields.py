@@ -23,11 +23,15 @@ _POSE: dict[str, Field] = {
     "y": "position.y",
     **{f"q{axis}": f"orientation.{axis}" for axis in "xyzw"},
 }
+_GOAL_ID: dict[str, Field] = {"id": "goal_id.id"}
+_REQUEST: dict[str, Field] = {"client": "client", "number": "number"}
 
 
 def _under(path: str, fields: Mapping[str, Field]) -> dict[str, Field]:
     return {name: f"{path}.{field}" for name, field in fields.items()}
 
+
+_POSE_STAMPED = _HEADER | _under("pose", _POSE)
 
 FIELDS: dict[str, dict[str, Field]] = {
     "std_msgs/String": {"text": "data"},
@@ -41,7 +45,7 @@ FIELDS: dict[str, dict[str, Field]] = {
     | _under("twist.twist", _TWIST),
     "geometry_msgs/Twist": _TWIST,
     "geometry_msgs/Pose": _POSE,
-    "geometry_msgs/PoseStamped": _HEADER | _under("pose", _POSE),
+    "geometry_msgs/PoseStamped": _POSE_STAMPED,
     "geometry_msgs/PoseArray": _HEADER | {"poses": ("poses", "geometry_msgs/Pose")},
     "geometry_msgs/TransformStamped": _HEADER
     | {"child": "child_frame_id", "x": "transform.translation.x", "y": "transform.translation.y"}
@@ -53,6 +57,18 @@ FIELDS: dict[str, dict[str, Field]] = {
     | {"red": "color.r", "green": "color.g", "blue": "color.b", "opacity": "color.a"}
     | {"qw": "pose.orientation.w", "points": ("points", "geometry_msgs/Point")},
     "visualization_msgs/MarkerArray": {"markers": ("markers", "visualization_msgs/Marker")},
+    "actionlib_msgs/GoalID": {"id": "id"},
+    "actionlib_msgs/GoalStatus": {"id": "goal_id.id", "state": "status"},
+    "actionlib_msgs/GoalStatusArray": {"states": ("status_list", "actionlib_msgs/GoalStatus")},
+    "move_base_msgs/MoveBaseActionGoal": _GOAL_ID | _under("goal.target_pose", _POSE_STAMPED),
+    "action_msgs/GoalStatus": {"id": "goal_info.goal_id.uuid", "state": "status"},
+    "action_msgs/GoalStatusArray": {"states": ("status_list", "action_msgs/GoalStatus")},
+    "action_msgs/CancelGoal_Request": _REQUEST | {"id": "goal_info.goal_id.uuid"},
+    "nav2_msgs/NavigateToPose_Goal": _under("pose", _POSE_STAMPED),
+    "nav2_msgs/NavigateToPose_SendGoal_Request": _REQUEST
+    | {"id": "goal_id.uuid"}
+    | _under("pose", _POSE_STAMPED),
+    "nav2_msgs/NavigateToPose_SendGoal_Response": _REQUEST | {"accepted": "accepted"},
 }
 """The fields that are read and written, by the type of the message."""
 

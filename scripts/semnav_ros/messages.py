@@ -142,12 +142,15 @@ class NodeReply:
             is zero and need not be sent, so that somebody else may drive.
         status: the state after the call.
         said: the open question, or why the last text was refused; empty if there is neither.
+        goal: where the base frame shall go, in the frame of odometry, where a navigator drives;
+            None: nowhere, so that the robot has to stand.
     """
 
     velocity: Twist
     drives: bool
     status: NodeStatus
     said: str
+    goal: Pose | None = None
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
+from semnav_features.frames import Pose
 from semnav_ros import conversions
 from semnav_ros.fields import Values
+from semnav_ros.goal_sender import GoalSender
 from semnav_ros.messages import NodeReply
+from semnav_ros.navigator import Navigator
 from semnav_ros.robot_node import STILL, RobotNode
 from semnav_ros.shown_belief import markers_of
 from semnav_ros.topics import NodeTopics
@@ -28,6 +32,7 @@ class NodeShell:
         wire: what carries its messages.
         topics: their names and qualities.
         notes: called with the status when phase, clause, problem or words change.
+        navigator: what drives to the goals of a node without an agent.
     """
 
     def __init__(
@@ -36,8 +41,10 @@ class NodeShell:
         wire: Wire,
         topics: NodeTopics = NodeTopics(),
         notes: Callable[[NodeReply], None] = lambda reply: None,
+        navigator: Navigator | None = None,
     ) -> None:
         self._node, self._wire, self._topics, self._notes = node, wire, topics, notes
+        self._goals = None if navigator is None else GoalSender(navigator)
         self._told: tuple[object, ...] = ()
         self._shown_at = 0.0
         for topic in (topics.cmd_vel, topics.status, topics.said):
@@ -62,6 +69,7 @@ class NodeShell:
                 self._show()
         finally:
             self._wire.say(self._topics.cmd_vel, conversions.twist_values(STILL))
+            self._navigate(None)
 
     def _take_transforms(self, values: Values) -> None:
         for transform in conversions.transform_messages(values):
@@ -75,8 +83,11 @@ class NodeShell:
         self._say(self._node.tick(_now()))  # later: the scan may be old once it is understood
 
     def _say(self, reply: NodeReply) -> None:
-        if reply.drives:
+        """Say the velocity, or the goal, first, and then what else is new."""
+        if reply.drives and reply.goal is None:  # while it has a goal the navigator drives
             self._wire.say(self._topics.cmd_vel, conversions.twist_values(reply.velocity))
+        if problem := self._navigate(reply.goal):
+            reply = replace(reply, status=replace(reply.status, problem=problem))
         status = reply.status
         told = status.phase, status.problem, status.clause, status.reasons, reply.said
         if told == self._told:
@@ -85,6 +96,12 @@ class NodeShell:
         self._wire.say(self._topics.status, {"text": conversions.status_text(status)})
         self._wire.say(self._topics.said, {"text": reply.said})
         self._notes(reply)
+
+    def _navigate(self, goal: Pose | None) -> str:
+        """Keep the navigator, if there is one, at a goal; returns why it does not drive."""
+        if self._goals is None:
+            return ""
+        return self._goals.want(goal, self._node.pose, self._node.odometry_frame, _now())
 
     def _show(self) -> None:
         """Show the belief, if it is time to."""

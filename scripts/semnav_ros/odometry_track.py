@@ -24,7 +24,8 @@ class OdometryTrack:
     """Poses of the base frame by odometry, as if it never jumped.
 
     After a jump the robot counts as standing where it stood: odometry was reset, and the robot was
-    not carried. `frame` is the pose in which the numbers of the robot's odometry now lie.
+    not carried. `frame` is the pose in which the numbers of the robot's odometry now lie, and
+    `reported` the last pose in these numbers.
 
     Args:
         robot: the body, whose largest speeds bound what is no jump.
@@ -34,7 +35,7 @@ class OdometryTrack:
     def __init__(self, robot: RobotSpec, counts: Counts) -> None:
         self._robot, self._counts = robot, counts
         self._poses: deque[tuple[float, Pose]] = deque(maxlen=KEPT)
-        self.frame: Pose = ORIGIN
+        self.frame = self.reported = ORIGIN
         self.name = "odom"
 
     def take(self, message: OdometryMessage) -> bool:
@@ -54,6 +55,7 @@ class OdometryTrack:
             if message.stamp < stamp:
                 self._poses.clear()
         self._poses.append((message.stamp, pose))
+        self.reported = message.pose
         self.name = message.frame
         return jumped
 

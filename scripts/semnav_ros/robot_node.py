@@ -8,6 +8,7 @@ from dataclasses import replace
 from semnav_agents.registry import AgentSource
 from semnav_env.language import Command
 from semnav_env.mind.belief import Belief
+from semnav_env.mind.grounding import GoalKind
 from semnav_env.robots import RobotSpec, robot_spec
 from semnav_features.frames import ORIGIN, FloatArray, Pose, Twist, compose, relative
 from semnav_features.lidars import lidar_spec
@@ -27,7 +28,7 @@ from semnav_ros.messages import (
     TransformMessage,
 )
 from semnav_ros.odometry_track import OdometryTrack
-from semnav_ros.shown_belief import shown_belief
+from semnav_ros.shown_belief import goal_pose, shown_belief
 from semnav_ros.stamps import Arrival, StampJudge
 from semnav_ros.standstill import PATIENCE, StandstillWatch
 
@@ -60,7 +61,8 @@ class RobotNode:
 
     Args:
         robot: the body; "wheelchair", "spot" or a spec of yours.
-        agent: what drives, see `make_agent`; it must not need the floor plan.
+        agent: what drives, see `make_agent`; it must not need the floor plan. None: a navigator
+            drives, such as nav2; answers have its goals, and velocities are zero.
         mount: pose of the lidar in the base frame; None takes it from the transforms.
         base: x of the base frame's origin in the robot frame, metres: 0 if it lies in the middle of
             the body, negative if it lies behind, as at an axle.
@@ -79,7 +81,7 @@ class RobotNode:
     def __init__(
         self,
         robot: str | RobotSpec = "wheelchair",
-        agent: AgentSource = "scripted",
+        agent: AgentSource | None = "scripted",
         mount: Pose | None = None,
         base: float = 0.0,
         base_frame: str = "base_link",
@@ -100,6 +102,7 @@ class RobotNode:
         self._last_scan = self._active_at = -math.inf
         self._problem = self._refusal = ""
         self._phase, self._velocity = Phase.IDLE, STILL
+        self._goal: Pose | None = None
         self._waiting: Command | None = None
         self._clauses: tuple[str, ...] = ()
         self._start = ORIGIN
@@ -168,23 +171,28 @@ class RobotNode:
         return self.tick(now)
 
     def tick(self, now: float) -> NodeReply:
-        """What holds now: the velocity is zero where the last scan is too old."""
+        """What holds now: the robot has to stand where the last scan is too old."""
         problem = self._problem if self._phase in ACTIVE else ""
         if self._phase not in ACTIVE:
-            self._velocity = STILL
+            self._halt()
         elif now - self._last_scan > STALE:
-            self._velocity = STILL
+            self._halt()
             problem = self._refusal or NO_SCAN
         if self._phase in (*ACTIVE, Phase.ASKING, Phase.HELD):
             self._active_at = now
         status = self._status(problem)
         drives = now - self._active_at <= FAREWELL
-        return NodeReply(self._velocity, drives, status, self._talk.said)
+        return NodeReply(self._velocity, drives, status, self._talk.said, self._goal)
 
     @property
     def belief(self) -> BeliefMessage | None:
         """What is believed, odometry frame; None before the first scan of a command."""
         return None if self._seen is None else shown_belief(*self._seen, self._base)
+
+    @property
+    def pose(self) -> Pose:
+        """The last pose of the base frame by odometry, odometry frame."""
+        return self._track.reported
 
     @property
     def odometry_frame(self) -> str:
@@ -234,20 +242,35 @@ class RobotNode:
         self._seen = belief, relative(self._track.frame, centre)
         stands = self._watch.stands(stamp, base, velocity)
         self._velocity, self._problem = velocity, NO_MOTION if stands else ""
+        self._goal = self._navigated(belief)
         if belief.clause >= len(self._clauses):
             self._phase = Phase.DONE
         elif belief.impossible is not None:
-            self._phase, self._velocity = Phase.IMPOSSIBLE, STILL
+            self._phase = Phase.IMPOSSIBLE
+            self._halt()
         else:
             self._phase = Phase.RUNNING
 
+    def _navigated(self, belief: Belief) -> Pose | None:
+        """Where a navigator shall go; None where an agent drives, or to stand still."""
+        if self._agent is not None or belief.target.kind is GoalKind.STOP:
+            return None
+        assert self._seen is not None
+        return goal_pose(*self._seen, self._base)
+
     def _stand(self, problem: str) -> None:
         """Stand until the next scan, and say why."""
-        self._velocity, self._problem = STILL, problem
+        self._halt()
+        self._problem = problem
+
+    def _halt(self) -> None:
+        """Stand until something else is decided."""
+        self._velocity, self._goal = STILL, None
 
     def _forget(self) -> None:
         """Forget the command that runs."""
-        self._velocity, self._problem, self._clauses = STILL, "", ()
+        self._halt()
+        self._problem, self._clauses = "", ()
         self._waiting = self._seen = None
 
     def _status(self, problem: str) -> NodeStatus:

@@ -10,7 +10,11 @@ from typing import Any
 from semnav_features.frames import Twist
 from semnav_ros import conversions
 from semnav_ros.fields import Values
+from semnav_ros.goal_state import GoalState
+from semnav_ros.messages import OdometryMessage, ScanMessage
+from semnav_ros.navigator import NavigatorServer
 from semnav_ros.robot_node import STILL
+from semnav_ros.simulated_navigator import SimulatedNavigator
 from semnav_ros.simulated_robot import SimulatedRobot
 from semnav_ros.topics import NodeTopics
 from semnav_ros.wire import Wire
@@ -21,6 +25,9 @@ LONGEST_SILENCE = 0.5
 FAREWELL = 2.0
 """How long a robot goes on after its episode, seconds: its node may believe later than the judge
 that a command is done."""
+
+OVERRULED = 0.2
+"""Time for which a velocity on the topic goes before those of the robot's navigator, seconds."""
 
 BASE, LASER = "base_link", "laser"
 
@@ -33,6 +40,8 @@ class RobotShell:
         wire: what carries its messages.
         topics: their names and qualities, as the node's.
         speed: simulated seconds a second.
+        navigator: drives the robot to the goals that it is given, unless velocities are heard.
+        server: tells what becomes of these goals.
 
     Attributes:
         delays: seconds from each scan that was said, or the oldest that got no answer, to the
@@ -45,7 +54,10 @@ class RobotShell:
         wire: Wire,
         topics: NodeTopics = NodeTopics(),
         speed: float = 1.0,
+        navigator: SimulatedNavigator | None = None,
+        server: NavigatorServer | None = None,
     ) -> None:
+        self._navigator, self._server = navigator, server
         self._robot, self._wire, self._topics, self._speed = robot, wire, topics, speed
         self._velocity: Twist = STILL
         self._unanswered: float | None = None
@@ -70,23 +82,36 @@ class RobotShell:
             if command is not None and self._wire.listeners(self._topics.command) > 1:
                 self._wire.say(self._topics.command, {"text": command})
                 command = None
-            self._say_sensed()
+            navigated = self._say_sensed()
             due = max(due + self._robot.period / self._speed, time.monotonic())
             while (left := due - time.monotonic()) > 0.0:
                 self._wire.wait(left)
-            silent = time.monotonic() - self._heard_at > LONGEST_SILENCE
-            self._robot.drive(STILL if silent else self._velocity)
+            silent = time.monotonic() - self._heard_at
+            told = STILL if silent > LONGEST_SILENCE else self._velocity
+            self._robot.drive(told if silent <= OVERRULED or navigated is None else navigated)
             if self._robot.outcome is not None:
                 end = min(end, due + FAREWELL)
         return self._robot.outcome
 
-    def _say_sensed(self) -> None:
+    def _say_sensed(self) -> Twist | None:
+        """Say what is sensed; returns the velocity of the navigator, if there is one."""
         scan, odometry, bumps = self._robot.sensed()
         self._wire.say(self._topics.odom, conversions.odometry_values(odometry, BASE))
         self._wire.say(self._topics.bumps, conversions.bumps_values(bumps, BASE))
         self._wire.say(self._topics.scan, conversions.scan_values(scan))
         if self._unanswered is None:
             self._unanswered = time.monotonic()
+        return None if self._navigator is None else self._navigated(self._navigator, scan, odometry)
+
+    def _navigated(
+        self, navigator: SimulatedNavigator, scan: ScanMessage, odometry: OdometryMessage
+    ) -> Twist:
+        """The navigator's velocity; tells when it has come to its goal."""
+        drives = navigator.goal is not None
+        velocity = navigator.velocity(scan, odometry)
+        if drives and navigator.state is GoalState.REACHED and self._server is not None:
+            self._server.tell(navigator.state)
+        return velocity
 
     def _listen(self, values: Values) -> None:
         self._robot.tell(values["text"])

@@ -7,6 +7,8 @@ from importlib import import_module
 from typing import Any
 
 from semnav_ros.fields import Values, written
+from semnav_ros.move_base import MOVE_BASE, MoveBaseNavigator, MoveBaseServer
+from semnav_ros.navigator import TakeGoal
 from semnav_ros.topics import Topic
 from semnav_ros.wire import Take, Waiting
 
@@ -63,6 +65,14 @@ class Ros1Wire:
     def wait(self, seconds: float) -> None:
         """Wait for messages for at most this time, and give what came to who takes it."""
         self._waiting.give(seconds)
+
+    def navigator(self, action: str | None) -> MoveBaseNavigator:
+        """What sends goals to move_base."""
+        return MoveBaseNavigator(self, action or MOVE_BASE)
+
+    def navigator_server(self, take: TakeGoal, action: str | None) -> MoveBaseServer:
+        """What hears the goals of move_base in its place."""
+        return MoveBaseServer(self, take, action or MOVE_BASE)
 
     def close(self) -> None:
         """Leave the graph."""

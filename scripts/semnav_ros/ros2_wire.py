@@ -9,6 +9,8 @@ import rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from semnav_ros.fields import Values, written
+from semnav_ros.nav2 import NAVIGATE_TO_POSE
+from semnav_ros.navigator import Navigator, NavigatorServer, TakeGoal
 from semnav_ros.topics import Topic
 from semnav_ros.wire import Take, Waiting
 
@@ -49,6 +51,20 @@ class Ros2Wire:
         """Wait for messages for at most this time, and give what came to who takes it."""
         rclpy.spin_once(self._node, timeout_sec=seconds)
         self._waiting.give(0.0)
+
+    def navigator(self, action: str | None) -> Navigator:
+        """What sends goals to nav2."""
+        from semnav_ros.ros2_navigator import Ros2Navigator  # nav2_msgs need not be installed
+
+        return Ros2Navigator(self._node, action or NAVIGATE_TO_POSE)
+
+    def navigator_server(self, take: TakeGoal, action: str | None) -> NavigatorServer:
+        """None: nav2 itself is there.
+
+        Raises:
+            ValueError: always.
+        """
+        raise ValueError("over ros2 there is no stand-in for nav2: run nav2, or take --over dds")
 
     def close(self) -> None:
         """Leave the graph."""

@@ -35,15 +35,24 @@ def shown_belief(belief: Belief, centre: Pose, base: Pose) -> BeliefMessage:
         centre: pose of the robot's centre by odometry, at the same moment.
         base: pose of the base frame in the robot frame.
     """
-    frame = compose(centre, relative(belief.pose, ORIGIN))
-    scene = belief.scene
+    frame, scene = _frame_of(belief, centre), belief.scene
     return BeliefMessage(
         compose(centre, base),
         _ends(frame, scene.walls),
         _ends(frame, scene.doors),
         np.array([door.confidence for door in scene.doors], np.float64),
-        compose(compose(frame, belief.target.pose), base),
+        goal_pose(belief, centre, base),
     )
+
+
+def goal_pose(belief: Belief, centre: Pose, base: Pose) -> Pose:
+    """Where the base frame shall go, odometry frame; arguments as of `shown_belief`."""
+    return compose(compose(_frame_of(belief, centre), belief.target.pose), base)
+
+
+def _frame_of(belief: Belief, centre: Pose) -> Pose:
+    """The frame of a belief in the odometry frame."""
+    return compose(centre, relative(belief.pose, ORIGIN))
 
 
 def markers_of(belief: BeliefMessage) -> tuple[MarkerMessage, ...]:

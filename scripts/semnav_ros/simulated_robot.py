@@ -11,6 +11,7 @@ from semnav_env.language import CommandError, parse
 from semnav_env.mind.grounding import GroundingError
 from semnav_features.frames import ORIGIN, Pose, Twist, compose
 from semnav_ros.messages import Bumps, OdometryMessage, ScanMessage
+from semnav_ros.simulated_navigator import SimulatedNavigator
 
 FIRST_STAMP = 100.0
 """Time by the robot's clock when it starts, seconds: as by a clock of a simulation."""
@@ -54,6 +55,11 @@ class SimulatedRobot:
     def period(self) -> float:
         """Seconds between scans."""
         return 1.0 / self._env.lidar_spec.rate_hz
+
+    @property
+    def navigator(self) -> SimulatedNavigator:
+        """A new navigator for this robot."""
+        return SimulatedNavigator(self._env.robot, self._env.lidar_spec)
 
     @property
     def mount(self) -> Pose:

@@ -15,6 +15,8 @@ class Topic:
         depth: how many messages wait before the oldest is dropped.
         reliable: whether lost messages are sent again.
         latched: whether who comes late gets the last message (transient local in ROS 2).
+        prefix: of the name in DDS, as ROS 2 has it: rt for a topic, rq and rr for the requests and
+            the replies of a service.
     """
 
     name: str
@@ -22,6 +24,7 @@ class Topic:
     depth: int = 10
     reliable: bool = True
     latched: bool = False
+    prefix: str = "rt"
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,7 @@ class NodeTopics:
     """All topics of the node. The first part is heard, the second is said.
 
     What is heard waits in this order: a stop goes before all else, odometry before its scan.
+    `goal_pose` is said only to a navigator that hears goals there.
     """
 
     stop: Topic = Topic("semnav/stop", "std_msgs/Bool")
@@ -43,6 +47,7 @@ class NodeTopics:
     said: Topic = Topic("semnav/said", "std_msgs/String", latched=True)
     belief: Topic = Topic("semnav/belief", "std_msgs/String", 1)
     goal: Topic = Topic("semnav/goal", "geometry_msgs/PoseStamped", 1)
+    goal_pose: Topic = Topic("goal_pose", "geometry_msgs/PoseStamped", 1)
     markers: Topic = Topic("semnav/markers", "visualization_msgs/MarkerArray", 1)
 
     def renamed(self, names: dict[str, str]) -> NodeTopics:

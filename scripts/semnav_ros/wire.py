@@ -8,6 +8,7 @@ from threading import Condition
 from typing import Any, Protocol, TypeAlias
 
 from semnav_ros.fields import Values, read
+from semnav_ros.navigator import Navigator, NavigatorServer, TakeGoal
 from semnav_ros.topics import Topic
 
 Take: TypeAlias = Callable[[Values], None]
@@ -31,6 +32,16 @@ class Wire(Protocol):
 
     def wait(self, seconds: float) -> None:
         """Wait for messages for at most this time, and give what came to who takes it."""
+
+    def navigator(self, action: str | None) -> Navigator:
+        """What sends goals to an action; the usual one if no name is given."""
+
+    def navigator_server(self, take: TakeGoal, action: str | None) -> NavigatorServer:
+        """What hears the goals of an action, in place of a navigator.
+
+        Raises:
+            ValueError: this wire has none.
+        """
 
     def close(self) -> None:
         """End the connection."""

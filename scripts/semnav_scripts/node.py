@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 
 from semnav_ros.messages import NodeReply, Phase
 from semnav_ros.node_shell import NodeShell
-from semnav_ros.opening import WireName, open_wire
+from semnav_ros.opening import NavigatorKind, WireName, open_navigator, open_wire
 from semnav_ros.robot_node import RobotNode
 from semnav_ros.topics import NodeTopics
 from semnav_scripts.arguments import OptionalText, parse_pose
@@ -33,6 +33,10 @@ class Arguments:
         base: x of the base frame in the robot frame, whose origin is the middle of the body.
         base_frame: name of the base frame.
         language: of the commands: en or de; recognised if not given.
+        navigator: say goals to the robot's navigator and no velocities: action is nav2's
+            NavigateToPose, or move_base in ROS 1, and topic is goal_pose for any other; the agent
+            drives if not given.
+        action: name of the action; navigate_to_pose, or move_base in ROS 1, if not given.
         topics: other names of topics, such as scan=/front/scan cmd_vel=/nav_vel.
         json: print each change of the status as JSON.
     """
@@ -44,6 +48,8 @@ class Arguments:
     base: float = 0.0
     base_frame: str = "base_link"
     language: OptionalText = None
+    navigator: NavigatorKind | None = None
+    action: OptionalText = None
     topics: tuple[str, ...] = field(default=())
     json: bool = False
 
@@ -53,10 +59,12 @@ class Arguments:
         mount = None if self.mount is None else parse_pose(self.mount)
         wire = open_wire(self.over, "semnav")  # first, for what is missing is then said at once
         try:
-            node = RobotNode(
-                self.robot, self.agent, mount, self.base, self.base_frame, self.language
-            )
-            NodeShell(node, wire, topics, self._note).run()
+            navigator = None
+            if self.navigator is not None:
+                navigator = open_navigator(self.navigator, wire, topics, self.action)
+            agent = self.agent if navigator is None else None
+            node = RobotNode(self.robot, agent, mount, self.base, self.base_frame, self.language)
+            NodeShell(node, wire, topics, self._note, navigator).run()
         finally:
             wire.close()
         return 0

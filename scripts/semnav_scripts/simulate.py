@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from tyro.conf import Positional
 
-from semnav_ros.opening import WireName, open_wire
+from semnav_ros.opening import NavigatorKind, WireName, open_navigator_server, open_wire
 from semnav_ros.robot_shell import RobotShell
 from semnav_ros.simulated_robot import SimulatedRobot
 from semnav_ros.topics import NodeTopics
@@ -37,6 +37,9 @@ class Arguments:
         speed: simulated seconds a second.
         seconds: give up after this time.
         topics: other names of topics, such as scan=/front/scan.
+        navigator: be a navigator, too, for `semnav node --navigator`: action stands in for nav2
+            (dds) or move_base (ros1), topic hears goal_pose.
+        action: name of the action; navigate_to_pose, or move_base in ROS 1, if not given.
     """
 
     command: Positional[str | None] = None
@@ -48,6 +51,8 @@ class Arguments:
     speed: float = 1.0
     seconds: float = 3600.0
     topics: tuple[str, ...] = field(default=())
+    navigator: NavigatorKind | None = None
+    action: OptionalText = None
 
     def run(self) -> int:
         """Run until the judge has said its verdict, or time is up."""
@@ -58,7 +63,12 @@ class Arguments:
         wire = open_wire(self.over, "semnav_robot")
         try:
             robot = SimulatedRobot(self.map, self.robot, pose, self.seed)
-            shell = RobotShell(robot, wire, topics, self.speed)
+            navigator, server = None, None
+            if self.navigator is not None:
+                navigator = robot.navigator
+                told = topics, navigator.take, self.action
+                server = open_navigator_server(self.navigator, wire, *told)
+            shell = RobotShell(robot, wire, topics, self.speed, navigator, server)
             print("publishing; tell a command on semnav/command", flush=True)
             end = time.monotonic() + self.seconds
             outcome = shell.run(lambda: time.monotonic() < end, self.command)
