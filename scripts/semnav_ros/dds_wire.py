@@ -8,7 +8,15 @@ from functools import cache
 from types import new_class
 from typing import Any
 
-from cyclonedds.core import Listener, Policy, Qos
+from cyclonedds.core import (
+    InstanceState,
+    Policy,
+    Qos,
+    ReadCondition,
+    SampleState,
+    ViewState,
+    WaitSet,
+)
 from cyclonedds.domain import DomainParticipant
 from cyclonedds.idl import IdlStruct, types
 from cyclonedds.pub import DataWriter
@@ -18,32 +26,36 @@ from cyclonedds.util import duration
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
-from semnav_ros.fields import Values, written
+from semnav_ros.fields import Values, read, written
 from semnav_ros.nav2 import NAVIGATE_TO_POSE, Nav2Navigator, Nav2Server
 from semnav_ros.navigator import TakeGoal
 from semnav_ros.service_types import HEADER, SERVICE_TYPES
 from semnav_ros.topics import Topic
-from semnav_ros.wire import Take, Waiting
+from semnav_ros.wire import Take
+
+NOT_TAKEN = SampleState.Any | ViewState.Any | InstanceState.Any
 
 
 class DdsWire:
-    """A participant in the DDS domain of ROS_DOMAIN_ID (0 if it is not set)."""
+    """A participant in the DDS domain of ROS_DOMAIN_ID (0 if it is not set).
+
+    It has no thread of its own: messages wait in the readers, those of the topic that was heard
+    first are given out first.
+    """
 
     def __init__(self) -> None:
         from os import environ
 
         self._participant = DomainParticipant(int(environ.get("ROS_DOMAIN_ID", "0")))
-        self._waiting = Waiting()
-        self._readers: list[DataReader[Any]] = []
+        self._awaited = WaitSet(self._participant)
+        self._readers: list[tuple[Topic, Take, DataReader[Any]]] = []
         self._writers: dict[str, DataWriter[Any]] = {}
 
     def hear(self, topic: Topic, take: Take) -> None:
         """Give each message of a topic to `take`, in `wait`."""
-        heard = _Heard(self._waiting.add(topic, take))
-        place, qos = self._place(topic), qos_of(topic)
-        reader = DataReader(self._participant, place, qos, heard)
-        self._readers.append(reader)
-        heard.on_data_available(reader)  # what came while it was made
+        reader = DataReader(self._participant, self._place(topic), qos_of(topic))
+        self._awaited.attach(ReadCondition(reader, NOT_TAKEN))
+        self._readers.append((topic, take, reader))
 
     def announce(self, topic: Topic) -> None:
         """Say that messages of a topic will come."""
@@ -61,7 +73,11 @@ class DdsWire:
 
     def wait(self, seconds: float) -> None:
         """Wait for messages for at most this time, and give what came to who takes it."""
-        self._waiting.give(seconds)
+        self._awaited.wait(int(seconds * 1e9))
+        for topic, take, reader in self._readers:
+            for message in reader.take(N=topic.depth):
+                if message.sample_info.valid_data:
+                    take(read(topic.kind, message))
 
     def navigator(self, action: str | None) -> Nav2Navigator:
         """What sends goals to nav2."""
@@ -73,26 +89,13 @@ class DdsWire:
 
     def close(self) -> None:
         """Leave the domain."""
+        del self._awaited
         self._readers.clear()
         self._writers.clear()
         del self._participant
 
     def _place(self, topic: Topic) -> DdsTopic[Any]:
         return DdsTopic(self._participant, f"{topic.prefix}/{topic.name}", dds_type(topic.kind))
-
-
-class _Heard(Listener):
-    """Puts the messages of a reader in a queue, in a thread of Cyclone's."""
-
-    def __init__(self, put: Any) -> None:
-        super().__init__()  # type: ignore[no-untyped-call]
-        self._put = put
-
-    def on_data_available(self, reader: DataReader[Any] | None) -> None:
-        """Take what came; Cyclone calls this with None while the reader is still made."""
-        for message in [] if reader is None else reader.take(N=100):
-            if message.sample_info.valid_data:
-                self._put(message)
 
 
 def qos_of(topic: Topic) -> Qos:

@@ -9,6 +9,7 @@ from dataclasses import replace
 from semnav_features.frames import Pose
 from semnav_ros import conversions
 from semnav_ros.fields import Values
+from semnav_ros.garbage import garbage_when_idle
 from semnav_ros.goal_sender import GoalSender
 from semnav_ros.messages import NodeReply
 from semnav_ros.navigator import Navigator
@@ -47,6 +48,7 @@ class NodeShell:
         self._goals = None if navigator is None else GoalSender(navigator)
         self._told: tuple[object, ...] = ()
         self._shown_at = 0.0
+        self._is_idle = False  # whether a scan was just answered, so that the next one is far off
         for topic in (topics.cmd_vel, topics.status, topics.said):
             wire.announce(topic)
         for topic in (topics.belief, topics.goal, topics.markers):
@@ -60,16 +62,20 @@ class NodeShell:
 
     def run(self, goes_on: Callable[[], bool] = lambda: True) -> None:
         """Run until told otherwise; the last word is that the robot stands."""
-        try:
-            while goes_on():
-                self._wire.wait(TICK)
-                reply = self._node.tick(_now())
-                if reply.velocity == STILL:
-                    self._say(reply)
-                self._show()
-        finally:
-            self._wire.say(self._topics.cmd_vel, conversions.twist_values(STILL))
-            self._navigate(None)
+        with garbage_when_idle() as collect_garbage:
+            try:
+                while goes_on():
+                    self._wire.wait(TICK)
+                    reply = self._node.tick(_now())
+                    if reply.velocity == STILL:
+                        self._say(reply)
+                    if self._is_idle:
+                        self._is_idle = False
+                        self._show()
+                        collect_garbage()
+            finally:
+                self._wire.say(self._topics.cmd_vel, conversions.twist_values(STILL))
+                self._navigate(None)
 
     def _take_transforms(self, values: Values) -> None:
         for transform in conversions.transform_messages(values):
@@ -81,6 +87,7 @@ class NodeShell:
     def _take_scan(self, values: Values) -> None:
         self._node.scan(conversions.scan_message(values), _now())
         self._say(self._node.tick(_now()))  # later: the scan may be old once it is understood
+        self._is_idle = True
 
     def _say(self, reply: NodeReply) -> None:
         """Say the velocity, or the goal, first, and then what else is new."""

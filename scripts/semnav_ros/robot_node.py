@@ -139,8 +139,7 @@ class RobotNode:
         elif command == STOP:
             self._phase = Phase.STOPPED
         else:
-            self._waiting, self._phase = command, Phase.RUNNING
-            self._clauses = tuple(map(str, command.clauses))
+            self._begin(command)
         return self.tick(now)
 
     def stop(self, held: bool, now: float) -> NodeReply:
@@ -212,7 +211,17 @@ class RobotNode:
             )
         lidar = learned_lidar(message)
         self._drive = CommandDrive(self._body(mount), lidar, self._agent)
+        self._drive.warm()
+        if self._waiting is not None:
+            self._drive.begin(self._waiting, self._talk.text)
         return self._drive, ranges_for(lidar, scan)
+
+    def _begin(self, command: Command) -> None:
+        """Get ready for a command, which begins at the next scan."""
+        self._waiting, self._phase = command, Phase.RUNNING
+        self._clauses = tuple(map(str, command.clauses))
+        if self._drive is not None:
+            self._drive.begin(command, self._talk.text)
 
     def _body(self, mount: Pose) -> RobotSpec:
         """The body with the lidar at a pose in the base frame."""
@@ -236,7 +245,6 @@ class RobotNode:
             return
         centre = compose(base, relative(self._base, ORIGIN))
         if self._waiting is not None:
-            drive.begin(self._waiting, self._talk.text)
             self._start, self._waiting, seconds = centre, None, None
         belief, velocity = drive.update(ranges, relative(self._start, centre), self._bumps, seconds)
         self._seen = belief, relative(self._track.frame, centre)

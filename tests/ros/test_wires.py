@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import os
+import struct
 import subprocess
 import sys
 import time
@@ -10,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from semnav_ros.fields import read, written
+from semnav_ros.opening import MISSING
 from tests.support.paths import ROOT, ROOTS
 
 TEXT = "go through the second door on the right"
@@ -29,9 +32,8 @@ needs_dds = pytest.mark.skipif(
     reason='cyclonedds is not installed: pip install ".[dds]"',
 )
 needs_ros1 = pytest.mark.skipif(
-    not (MASTER.exists() and (DEBIAN / "rospy").exists()),
-    reason="ROS 1 is not installed: apt-get install python3-rospy python3-rosmaster "
-    "python3-sensor-msgs python3-nav-msgs python3-visualization-msgs python3-tf2-msgs",
+    not (MASTER.exists() and all((DEBIAN / name).exists() for name in ("rospy", "move_base_msgs"))),
+    reason=MISSING["ros1"],
 )
 pytestmark = pytest.mark.slow
 
@@ -91,10 +93,10 @@ def lines_of(process):
     return [json.loads(line) for line in said.splitlines() if line.startswith("{")]
 
 
-def drive(start, wire):
+def drive(start, wire, *options):
     """Drive by one wire; returns the judge's outcome and the states of the node."""
-    node = start("node", "--over", wire, "--json")
-    robot = start("simulate", TEXT, "--over", wire, PLACE, "--seconds", "140")
+    node = start("node", "--over", wire, "--json", *options)
+    robot = start("simulate", TEXT, "--over", wire, PLACE, "--seconds", "140", *options)
     outcome = outcome_of(robot)
     assert robot.returncode == 0
     return outcome, lines_of(node)
@@ -112,6 +114,27 @@ def test_a_command_by_ros_1_is_carried_out_as_the_judge_sees_it(start, master):
     outcome, states = drive(start, "ros1")
     assert outcome["verdicts"] == ["done"]
     assert "done" in [state["phase"] for state in states]
+
+
+@pytest.mark.parametrize("kind", ["action", "topic"])
+@pytest.mark.parametrize(
+    "wire", [pytest.param("dds", marks=needs_dds), pytest.param("ros1", marks=needs_ros1)]
+)
+def test_a_navigator_carries_a_command_out_by_the_goals_on_the_wire(start, request, wire, kind):
+    if wire == "ros1":
+        request.getfixturevalue("master")
+    outcome, states = drive(start, wire, "--navigator", kind)
+    assert outcome["verdicts"] == ["done"]
+    assert "delay_ms" not in outcome  # no velocity but zero came from the node
+    assert "done" in [state["phase"] for state in states]
+
+
+@needs_dds
+def test_a_node_without_its_navigator_says_so(start):
+    node = start("node", "--over", "dds", "--json", "--navigator", "action")
+    robot = start("simulate", TEXT, "--over", "dds", PLACE, "--seconds", "30")
+    assert not outcome_of(robot)["is_success"]
+    assert "no navigator has answered" in [state["problem"] for state in lines_of(node)]
 
 
 @needs_ros1
@@ -142,3 +165,20 @@ def test_the_types_on_the_wire_have_the_names_of_ros_2():
     message = scan()
     message.ranges = [1.0, 2.0]
     assert scan.deserialize(message.serialize()) == message
+
+
+@needs_dds
+def test_a_request_of_nav2_begins_with_the_client_and_the_number_of_the_request():
+    from semnav_ros.dds_wire import dds_type
+
+    kind = "nav2_msgs/NavigateToPose_SendGoal_Request"
+    values = {"client": 7, "number": 9, "id": list(range(16)), "frame": "odom", "x": 2.5}
+    request = written(kind, values, lambda name: dds_type(name)())
+    assert dds_type(kind).__idl_typename__ == (
+        "nav2_msgs::action::dds_::NavigateToPose_SendGoal_Request_"
+    )
+    after_encapsulation = request.serialize()[4:]
+    assert struct.unpack("<Qq16B", after_encapsulation[:32]) == (7, 9, *range(16))
+    assert read(kind, dds_type(kind).deserialize(request.serialize())) | values == (
+        read(kind, request)
+    )

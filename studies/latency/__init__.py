@@ -1,0 +1,1 @@
+"""How soon the node of a robot answers a scan."""
