@@ -9,6 +9,7 @@ from typing import Any
 from semnav_ros.fields import Values, written
 from semnav_ros.move_base import MOVE_BASE, MoveBaseNavigator, MoveBaseServer
 from semnav_ros.navigator import TakeGoal
+from semnav_ros.ros1_master import MasterWatch
 from semnav_ros.topics import Topic
 from semnav_ros.wire import Take, Waiting
 
@@ -23,8 +24,8 @@ rosgraph, rospy = import_module("rosgraph"), import_module("rospy")
 class Ros1Wire:
     """A node of ROS 1.
 
-    If the master dies, what is connected stays connected; after the master came back, publishers
-    and subscribers that start anew find this node only when it was started anew, too.
+    If the master dies, what is connected stays connected; a master that comes back is told again of
+    this node's topics, see `MasterWatch`.
 
     Args:
         node: its name.
@@ -38,6 +39,8 @@ class Ros1Wire:
             uri = rosgraph.get_master_uri()
             raise ConnectionError(f"no ROS master at {uri}: start roscore, or set ROS_MASTER_URI")
         rospy.init_node(node, disable_signals=True)
+        self._watch = MasterWatch(rospy.get_name())
+        self._watch.start()
         self._waiting = Waiting()
         self._publishers: dict[str, Any] = {}
 
@@ -76,6 +79,7 @@ class Ros1Wire:
 
     def close(self) -> None:
         """Leave the graph."""
+        self._watch.end()
         rospy.signal_shutdown("closed")
 
 

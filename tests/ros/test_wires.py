@@ -3,6 +3,7 @@
 import importlib.util
 import json
 import os
+import socket
 import struct
 import subprocess
 import sys
@@ -70,12 +71,24 @@ def start(tmp_path):
 
 
 @pytest.fixture
-def master(start):
-    """A ROS 1 master, by Debian's Python and not by this environment's."""
-    process = start("--core", "-p", str(PORT), program=("/usr/bin/python3", str(MASTER)))
-    time.sleep(2.0)
-    assert process.poll() is None, process.stdout.read()
-    return process
+def start_master(start):
+    """Starts a ROS 1 master, by Debian's Python and not by this environment's."""
+
+    def begin():
+        process = start("--core", "-p", str(PORT), program=("/usr/bin/python3", str(MASTER)))
+        for _ in range(100):
+            with socket.socket() as door:
+                if door.connect_ex(("127.0.0.1", PORT)) == 0:
+                    return process
+            time.sleep(0.1)
+        raise AssertionError(process.stdout.read())
+
+    return begin
+
+
+@pytest.fixture
+def master(start_master):
+    return start_master()
 
 
 def outcome_of(process, seconds=150):
@@ -146,6 +159,19 @@ def test_a_drive_outlives_the_master_of_ros_1(start, master):
             break
     master.kill()
     assert outcome_of(robot)["verdicts"] == ["done"]
+
+
+@needs_ros1
+def test_a_master_that_comes_back_is_told_of_the_node_again(start, start_master):
+    master = start_master()
+    node = start("node", "--over", "ros1", "--json")
+    assert node.stdout.readline()  # it runs
+    master.kill()
+    master.wait()
+    start_master()
+    robot = start("simulate", TEXT, "--over", "ros1", PLACE, "--seconds", "140")
+    assert outcome_of(robot)["verdicts"] == ["done"]
+    assert "done" in [state["phase"] for state in lines_of(node)]
 
 
 @needs_ros1
