@@ -18,6 +18,9 @@ class LoopWire:
     def announce(self, topic):
         pass
 
+    def wait(self, seconds):
+        pass
+
     def say(self, topic, values):
         values = dict.fromkeys(FIELDS[topic.kind], 0) | values
         self.said.append((topic.name, values))
