@@ -64,8 +64,11 @@ slow: $(VENV)/.test
 
 nightly: slow soak versions coverage
 
-# The node of a robot, with a ROS master of Debian's packages (python3-rospy, python3-rosmaster) and by DDS.
+# The node of a robot, with a ROS master of Debian's packages and by DDS. Where the packages cannot be
+# installed, the tests that need them skip, and say why.
 ros: $(VENV)/.test
+	-apt-get install -y python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs \
+	  python3-visualization-msgs python3-tf2-msgs python3-move-base-msgs
 	$(BIN)/python -m pytest -rs tests/ros
 
 lint: $(VENV)/.test

@@ -28,6 +28,7 @@ FIGURES = [
     "play",
     "real_floor",
     "report",
+    "ros_graph",
     "routes",
     "rules",
     "rules_table",
