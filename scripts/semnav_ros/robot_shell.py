@@ -79,10 +79,10 @@ class RobotShell:
         self._wire.say(self._topics.tf_static, mount)
         due, end = time.monotonic(), math.inf
         while goes_on() and due < end:
+            navigated = self._say_sensed()
             if command is not None and self._wire.listeners(self._topics.command) > 1:
                 self._wire.say(self._topics.command, {"text": command})
                 command = None
-            navigated = self._say_sensed()
             due = max(due + self._robot.period / self._speed, time.monotonic())
             while (left := due - time.monotonic()) > 0.0:
                 self._wire.wait(left)

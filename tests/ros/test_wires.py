@@ -17,7 +17,7 @@ from semnav_ros.opening import MISSING
 from tests.support.paths import ROOT, ROOTS
 
 TEXT = "go through the second door on the right"
-PLACE = "--pose=1.0,0.3,0.24"
+PLACE = ("--pose=1.0,0.3,0.24", "--seconds", "140")
 LOOPBACK = (
     "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast><Interfaces>"
     '<NetworkInterface name="lo" multicast="false"/></Interfaces></General><Discovery>'
@@ -26,7 +26,9 @@ LOOPBACK = (
 )
 MASTER = Path("/usr/bin/rosmaster")
 DEBIAN = Path("/usr/lib/python3/dist-packages")
-PORT = 11371
+WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
+PORT, DOMAIN = 11371 + WORKER, 93 + WORKER
+"""Of this process of the tests: several may run at a time."""
 
 needs_dds = pytest.mark.skipif(
     importlib.util.find_spec("cyclonedds") is None,
@@ -43,7 +45,7 @@ def environment(tmp_path, **more):
     roots = [str(folder) for folder in dict.fromkeys((ROOT, *ROOTS.values()))]
     path = os.pathsep.join([*roots, os.environ.get("PYTHONPATH", "")])
     ros1 = {"ROS_MASTER_URI": f"http://127.0.0.1:{PORT}", "ROS_IP": "127.0.0.1"}
-    dds = {"ROS_DOMAIN_ID": "93", "CYCLONEDDS_URI": LOOPBACK}
+    dds = {"ROS_DOMAIN_ID": str(DOMAIN), "CYCLONEDDS_URI": LOOPBACK}
     return {**os.environ, **ros1, **dds, "ROS_LOG_DIR": str(tmp_path), "PYTHONPATH": path, **more}
 
 
@@ -107,9 +109,9 @@ def lines_of(process):
 
 
 def drive(start, wire, *options):
-    """Drive by one wire; returns the judge's outcome and the states of the node."""
+    """Drive by one wire, twice as fast; returns the judge's outcome and the states of the node."""
     node = start("node", "--over", wire, "--json", *options)
-    robot = start("simulate", TEXT, "--over", wire, PLACE, "--seconds", "140", *options)
+    robot = start("simulate", TEXT, "--over", wire, *PLACE, "--speed", "2", *options)
     outcome = outcome_of(robot)
     assert robot.returncode == 0
     return outcome, lines_of(node)
@@ -145,7 +147,7 @@ def test_a_navigator_carries_a_command_out_by_the_goals_on_the_wire(start, reque
 @needs_dds
 def test_a_node_without_its_navigator_says_so(start):
     node = start("node", "--over", "dds", "--json", "--navigator", "action")
-    robot = start("simulate", TEXT, "--over", "dds", PLACE, "--seconds", "30")
+    robot = start("simulate", TEXT, "--over", "dds", *PLACE[:1], "--seconds", "30")
     assert not outcome_of(robot)["is_success"]
     assert "no navigator has answered" in [state["problem"] for state in lines_of(node)]
 
@@ -153,7 +155,7 @@ def test_a_node_without_its_navigator_says_so(start):
 @needs_ros1
 def test_a_drive_outlives_the_master_of_ros_1(start, master):
     node = start("node", "--over", "ros1", "--json")
-    robot = start("simulate", TEXT, "--over", "ros1", PLACE, "--seconds", "140")
+    robot = start("simulate", TEXT, "--over", "ros1", *PLACE)
     for line in node.stdout:
         if json.loads(line)["clauses"]:  # the command has come, so all are connected
             break
@@ -169,7 +171,7 @@ def test_a_master_that_comes_back_is_told_of_the_node_again(start, start_master)
     master.kill()
     master.wait()
     start_master()
-    robot = start("simulate", TEXT, "--over", "ros1", PLACE, "--seconds", "140")
+    robot = start("simulate", TEXT, "--over", "ros1", *PLACE)
     assert outcome_of(robot)["verdicts"] == ["done"]
     assert "done" in [state["phase"] for state in lines_of(node)]
 
