@@ -69,7 +69,7 @@ nightly: slow soak versions coverage
 ros: $(VENV)/.test
 	-apt-get install -y python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs \
 	  python3-visualization-msgs python3-tf2-msgs python3-move-base-msgs
-	$(BIN)/python -m pytest -rs -n 3 tests/ros
+	$(BIN)/python -m pytest -rs tests/ros
 
 lint: $(VENV)/.test
 	$(BIN)/ruff check .
