@@ -49,7 +49,8 @@ def draw_room(axes: Axes) -> None:
     for kind, colour in COLOURS.items():
         axes.plot([], [], ".", color=colour, label=kind.name.lower())
     axes.plot(*zip(*[pose[:2] for pose in POSES], strict=True), "k^", label="scans")
-    axes.set(title="corners of three scans, ellipses of 10 deviations", xlim=(-2.2, 3.0), ylim=(0.8, 7.6))
+    axes.set_title("corners of three scans, ellipses of 10 deviations")
+    axes.set(xlim=(-2.2, 3.0), ylim=(0.8, 7.6))
     axes.set_aspect("equal")
     axes.legend(loc="upper right")
 
