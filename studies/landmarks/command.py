@@ -30,7 +30,7 @@ from studies.landmarks.drift import (
     motions,
 )
 from studies.landmarks.far_pairs import far_shares
-from studies.landmarks.room import LANDMARKS, SPREAD, fused, views
+from studies.landmarks.room import LANDMARKS, SPREAD, fused, segments, views
 from studies.matching.drift import drift_of
 from studies.sheets import Cell, ResultSheet
 
@@ -99,6 +99,11 @@ class Arguments:
             (name, apart, *[cell for part in parts for cell in part[name]]) for name, apart in rows
         ]
         yield ResultSheet("Ten landmarks", columns, joined)
+        yield ResultSheet("Segments of three scans", _SEGMENTS, list(map(self._merged, self.sigma)))
+
+    def _merged(self, sigma: float) -> tuple[Cell, ...]:
+        counts = [segments(views(sigma, trial)) for trial in range(self.trials)]
+        return 1e3 * sigma, *np.mean(counts, axis=0).tolist()
 
     def _columns(self) -> Iterator[ResultSheet]:
         yield ResultSheet("Columns", _COLUMNS, list(_columns(self.sigma, self.trials)))
@@ -132,6 +137,7 @@ _COLUMNS = (
     *("one arc: centre, mm", "radius", "refitted: centre", "radius "),
     *("fused: centre", "radius  ", "mean NEES of 3", "within 95 %"),
 )
+_SEGMENTS = ("sigma, mm", "before merging, mean", "after")
 _FAR = ("plan", "guess off by, m", "degrees", "matched from the guess", "with corners")
 _LOST = (
     *("log", "scans", "not matched", "with corners"),

@@ -12,7 +12,7 @@ from semnav_env.world.lidar import Lidar
 from semnav_env.world.maps import FloorPlan, Surface
 from semnav_features import ExtractorSettings, Scene, extract
 from semnav_features.frames import FloatArray, Point, Pose, compose
-from semnav_features.mapping import LandmarkMap, LandmarkSettings
+from semnav_features.mapping import LandmarkMap, LandmarkSettings, LineMap, MapSettings
 from semnav_features.scan import Scan
 
 LANDMARKS: dict[str, Point] = {
@@ -81,3 +81,11 @@ def fused(seen: list[tuple[Scene, Scan, Pose]]) -> list[tuple[FloatArray, FloatA
     for scene, scan, pose in seen:
         landmarks.add(scene, scan, pose)
     return [(np.array(corner.point), corner.covariance) for corner in landmarks.corners]
+
+
+def segments(seen: list[tuple[Scene, Scan, Pose]]) -> tuple[int, int]:
+    """Number of walls of the scans before they are merged in a line map, and after (figure 11)."""
+    line_map = LineMap(MapSettings(wall_hits=1))
+    for scene, scan, pose in seen:
+        line_map.add(scene, scan, pose)
+    return sum(len(scene.walls) for scene, _, _ in seen), len(line_map.walls)

@@ -203,10 +203,16 @@ ITEMS = (
     ThesisItem(
         BARBRET,
         "6.3",
-        "inputs that lead into a door's parts are overridden",
+        "inputs that lead into a door's parts are overridden: contacts of a clumsy hand a command",
         "wished for",
-        NOT_BUILT,
-        "",
+        "{}; {} without",
+        "python -m studies assistance",
+        tuple(
+            [
+                Figure("guides/play.md", ("wheelchair, scripted, clumsy", assistance), "contacts")
+                for assistance in ("and doors", "none")
+            ]
+        ),
     ),
     _segmentation("(12) Weerakoon et al., 4 degrees", "92.4"),
     _segmentation("(6) Certad et al., 4 degrees: the default", "82.7"),
@@ -266,8 +272,9 @@ ITEMS = (
         "figure 11",
         "segments before and after merging of three scans",
         "15, then 9",
-        "not measured; `LineMap` merges walls",
-        "semnav map build LOG --out floor.geojson",
+        "{}, then {} in a corridor of that kind, mean of 100 trials",
+        "python -m studies landmarks --tables corners",
+        tuple([Figure("lab/landmarks.md", ("20 mm, figure 11",), c) for c in ("before", "after")]),
     ),
     _columns("0.3 m", "1 to 2 m"),
     _columns("0.4 m", "3 to 4 m"),

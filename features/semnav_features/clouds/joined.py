@@ -16,7 +16,7 @@ def joined(first: DetectedDoor | None, second: DetectedDoor | None) -> DetectedD
 
     A jamb that both saw, and in one place, is fused by least squares. Where they disagree the first
     is right: give the more reliable detector first. A jamb that only one saw is taken from it, if
-    the other jamb, where both saw it, agrees.
+    the other jamb, where both saw it, agrees. The errors of both jambs count as independent.
 
     Args:
         first: the more reliable one.
