@@ -84,12 +84,18 @@ def _clouds(category: str, theirs: str) -> ThesisItem:
         "table 8.2",
         f"doors found in clouds of category {category}",
         theirs,
-        "{}; her pipeline on the same clouds, cropped by hand: {}",
+        "{}, with the 2D lidar {}; her pipeline on the same clouds, cropped by hand: {}, and "
+        "thinned to 1 cm: {}",
         "python -m studies clouds",
         tuple(
             [
                 Figure("lab/point_clouds.md", (name,), category)
-                for name in ("DoorFinder", "Mes 2021, crop by hand")
+                for name in (
+                    "DoorFinder",
+                    "DoorFinder and 2D lidar",
+                    "Mes 2021, crop by hand",
+                    "Mes 2021, crop by hand, cloud thinned to 1 cm",
+                )
             ]
         ),
     )
@@ -337,9 +343,14 @@ ITEMS = (
         "8.5",
         "single jambs found in all clouds",
         "0.708 (17 of 24)",
-        "{}",
+        "{}, with the 2D lidar {}",
         "python -m studies clouds",
-        (Figure("lab/point_clouds.md", ("DoorFinder",), "found"),),
+        tuple(
+            [
+                Figure("lab/point_clouds.md", (name,), "found")
+                for name in ("DoorFinder", "DoorFinder and 2D lidar")
+            ]
+        ),
     ),
     ThesisItem(
         MES,
