@@ -45,8 +45,8 @@ class Arguments:
         out: the floor plan to write (.geojson).
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
         poses: source of the scans' poses: "log" takes the poses of the log; "match" matches each
-            scan with the earlier ones, starts at (0, 0, 0), and uses wheel odometry if the log
-            has it.
+            scan with the earlier ones, corrects the drift by walls and landmarks that are seen
+            again, starts at (0, 0, 0), and uses wheel odometry if the log has it.
         mount: pose of the lidar on the robot, x,y,heading in metres and radians, by which wheel
             odometry becomes the motion of the lidar; only for "match".
         every: take only every Nth scan.
