@@ -154,6 +154,28 @@ def test_the_deviations_of_single_corners_are_as_claimed():
     assert np.mean(np.array(found) < 5.991) > 0.9
 
 
+@settings(max_examples=15)
+@given(st.integers(1, 719))
+def test_it_makes_no_difference_where_a_full_circle_begins(shift):
+    step = math.tau / 720
+    spec = replace(Lidar(OFFICE).spec, beams=720, angle_min=-math.pi, angle_increment=step)
+    scan = Lidar(OFFICE, spec).scan(CORNER_VIEW, key=(0, 0, 0))
+    rolled = Scan(np.roll(scan.ranges, -shift), scan.angle_min + shift * step, step)
+
+    def places(some):
+        seen = corner_sightings(extract(some), some)
+        return sorted((*corner.place.mean, *corner.place.covariance.ravel()) for corner in seen)
+
+    assert len(places(scan)) > 3
+    assert np.array(places(rolled)) == pytest.approx(np.array(places(scan)), abs=1e-6)
+
+
+def test_a_scene_without_walls_has_no_landmarks():
+    scan = lidar_of(OFFICE).scan(CORNER_VIEW, key=(0, 0, 0))
+    corners = extract(scan).corners
+    assert corner_sightings(Scene(corners=corners), scan) == []
+
+
 # Maps of corners
 
 

@@ -84,7 +84,7 @@ def corner_sightings(
     ends, walls = ends_of(scene.walls), list(scene.walls)
     noise = range_noise(scan.ranges, (scan.range_min, scan.range_max))
     found = []
-    for corner in scene.corners:
+    for corner in scene.corners if walls else ():
         if math.hypot(*corner.point) > settings.reach:
             continue
         if corner.kind is CornerKind.POTENTIAL:
@@ -159,7 +159,8 @@ def _where_it_ends(
     None if the wall is not seen to end: the next beam ends before it, cannot reach it, or ends
     less than `gap` behind it, where the surface goes on in a bend.
     """
-    step, beams = (1 if at_end else -1), len(scan.ranges)
+    step = 1 if at_end else -1
+    beams = min(len(scan.ranges), round(math.tau / scan.angle_increment))
     is_ring = beams * scan.angle_increment > math.tau - 0.5 * scan.angle_increment
     bearing = (math.atan2(end[1], end[0]) - scan.angle_min) % math.tau
     beam = round(bearing / scan.angle_increment)
