@@ -124,7 +124,8 @@ class Arguments:
         yield ResultSheet("Matched scans", _DRIFT, rows)
 
     def _lost(self) -> Iterator[ResultSheet]:
-        yield ResultSheet("Scans without a match", _LOST, [_lost(path) for path in self._logs()])
+        cases = [(path, wheels) for wheels in (False, True) for path in self._logs()]
+        yield ResultSheet("Scans without a match", _LOST, [_lost(*case) for case in cases])
 
     def _logs(self) -> list[Path]:
         if self.data is None:
@@ -140,8 +141,8 @@ _COLUMNS = (
 _SEGMENTS = ("sigma, mm", "before merging, mean", "after")
 _FAR = ("plan", "guess off by, m", "degrees", "matched from the guess", "with corners")
 _LOST = (
-    *("log", "scans", "not matched", "with corners"),
-    *("drift per 10 m, m", "with corners "),
+    *("log", "guess from", "scans", "not matched", "with corners"),
+    *("drift per 10 m, m", "with corners ", "p90", "with corners  "),
 )
 
 
@@ -233,11 +234,12 @@ def _matched(path: Path) -> Iterator[tuple[Cell, ...]]:
         yield log.name, "scans and wheels", name, *row
 
 
-def _lost(path: Path) -> tuple[Cell, ...]:
+def _lost(path: Path, wheels: bool) -> tuple[Cell, ...]:
     found = []
     for corners in (False, True):
         with open_log(path) as log:
-            found.append(drift_of(log, wheels=False, rule=KeyframeRule(corners=corners)))
+            found.append(drift_of(log, wheels, rule=KeyframeRule(corners=corners)))
     plain, guided = found
-    medians = [float(np.median(each.position)) for each in found]
-    return path.name.split("-corrected")[0], plain.scans, plain.lost, guided.lost, *medians
+    drifts = np.array([np.percentile(each.position, (50, 90)) for each in found]).T
+    name, guess = path.name.split("-corrected")[0], "wheels" if wheels else "the motion before"
+    return name, guess, plain.scans, plain.lost, guided.lost, *drifts.ravel().tolist()
