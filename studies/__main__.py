@@ -21,6 +21,10 @@ STUDIES = CommandTable(
         ),
         "frames": ("studies.theses.frames_command", "doors of Barbret's hallway in his frame 536"),
         "grids": ("studies.grids", "kernels on grids beside those of SciPy"),
+        "landmarks": (
+            "studies.landmarks.command",
+            "corners and columns fused over scans, and drift corrected by them",
+        ),
         "lines": ("studies.lines.command", "lines on real scans, walls on simulated ones"),
         "manner": ("studies.manner.command", "success at each pace and along each wall"),
         "matching": ("studies.matching.command", "how exactly scans are matched"),

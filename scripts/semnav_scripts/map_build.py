@@ -15,7 +15,7 @@ from semnav_env.world.maps import FloorPlan, save_floor_plan
 from semnav_env.world.maps.line_map_plan import plan_of_scene
 from semnav_features import ExtractorSettings, extract
 from semnav_features.frames import Pose
-from semnav_features.mapping import LineMap, MapSettings, ScanOdometry
+from semnav_features.mapping import KeyframeRule, LineMap, MapSettings, ScanOdometry
 from semnav_features.mapping.matched_log import loss_of, matched
 from semnav_features.plot import check_suffix
 from semnav_features.readers import (
@@ -45,8 +45,8 @@ class Arguments:
         out: the floor plan to write (.geojson).
         topic: of the scans in a bag, such as /scan; not needed if there is only one.
         poses: source of the scans' poses: "log" takes the poses of the log; "match" matches each
-            scan with the earlier ones, starts at (0, 0, 0), and uses wheel odometry if the log
-            has it.
+            scan with the earlier ones, corrects the drift by walls and landmarks that are seen
+            again, starts at (0, 0, 0), and uses wheel odometry if the log has it.
         mount: pose of the lidar on the robot, x,y,heading in metres and radians, by which wheel
             odometry becomes the motion of the lidar; only for "match".
         every: take only every Nth scan.
@@ -75,7 +75,10 @@ class Arguments:
         """Build the plan, and print a summary."""
         self._check()
         mount = parse_pose(self.mount)
-        line_map, odometry = LineMap(self.map_settings), ScanOdometry()
+        line_map, odometry = (
+            LineMap(self.map_settings),
+            ScanOdometry(rule=KeyframeRule(corners=True)),
+        )
         damage: TruncatedLogError | None = None
         with open_log(self.log, self.geometry, self.topic) as log:
             check = LogCheck(log.unit, ["odometry" if self.poses == "match" else "pose"])

@@ -22,9 +22,12 @@ FROZEN_SEED = 2021
 DETECTORS: dict[str, tuple[Sensor, Look]] = {
     "Mes 2021, crop by hand": (detectors.spot, detectors.by_hand()),
     "Mes 2021, crop by the robot": (detectors.spot, detectors.by_robot),
+    "Mes 2021, crop by hand, cloud thinned to 1 cm": (detectors.spot, detectors.thinned),
     "DoorFinder": (detectors.spot, detectors.finder),
     "DoorFinder, three clouds": (detectors.spot_on_its_way, detectors.finder),
     "DoorFinder, full height": (detectors.full_height, detectors.finder),
+    "DoorFinder and 2D lidar": (detectors.spot, detectors.with_lidar),
+    "DoorFinder, three clouds, and 2D lidar": (detectors.spot_on_its_way, detectors.with_lidar),
     "2D lidar": (detectors.lidar, detectors.scan_doors),
 }
 

@@ -21,6 +21,7 @@ from semnav_features.clouds import (
     PointCloud,
     door_in_scene,
     fused,
+    joined,
 )
 from semnav_features.frames import compose
 from semnav_features.scan import Scan
@@ -34,6 +35,9 @@ RIGHT = 0.10
 
 BACK = (0.24, 0.12)
 """How far behind its pose the robot was when it took the clouds that are fused, metres."""
+
+STORED = 0.01
+"""Side of the cells of a cloud that is stored with one point in each, metres."""
 
 STEP_SIGMA = 0.005
 """Error of odometry between these clouds, metres."""
@@ -109,6 +113,19 @@ def scan_doors(scene: CloudScene, view: CloudView) -> DetectedDoor | None:
     """The doors that the feature extractor finds in a scan."""
     assert view.scan is not None
     return door_in_scene(extract(view.scan).placed(SPOT.lidar_mount), scene.expected, SIGMA)
+
+
+def with_lidar(scene: CloudScene, view: CloudView) -> DetectedDoor | None:
+    """The better detector, and the lidar's door for the jambs that the cloud does not show."""
+    return joined(finder(scene, view), scan_doors(scene, lidar(scene)))
+
+
+def thinned(scene: CloudScene, view: CloudView) -> DetectedDoor | None:
+    """Her pipeline, cropped by hand, on a cloud that was stored with one point in each cm^3."""
+    cells = np.floor(view.cloud.points_robot / STORED).astype(np.int64)
+    _, first = np.unique(cells, axis=0, return_index=True)
+    cloud = PointCloud(view.cloud.points_robot[np.sort(first)])
+    return MesDetector().find_door(cloud, scene.truth, 0.0, _rng(scene))
 
 
 def _rng(scene: CloudScene) -> np.random.Generator:

@@ -25,7 +25,7 @@ ABOUT = {
     "semnav_features/clouds": "door jambs in point clouds",
     "semnav_features/explain": "why the extractor rejected a candidate",
     "semnav_features/kernels": "the compiled parts, over plain arrays",
-    "semnav_features/mapping": "line maps and scan matching",
+    "semnav_features/mapping": "line maps, landmarks and scan matching",
     "semnav_features/readers": "logs of real robots",
     "semnav_env": "the environment, the rules, and parts that no folder below holds",
     "semnav_env/approach": "poses from which a door can be passed",

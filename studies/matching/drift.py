@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 
 from semnav_features.frames import FloatArray, Pose, relative
-from semnav_features.mapping import MatchSettings, ScanOdometry
+from semnav_features.mapping import KeyframeRule, MatchSettings, ScanOdometry
 from semnav_features.readers import LogRecord
 
 DRIFT_STRETCH = 10.0
@@ -37,7 +37,10 @@ class Drift:
 
 
 def drift_of(
-    records: Iterable[LogRecord], wheels: bool, settings: MatchSettings = MatchSettings()
+    records: Iterable[LogRecord],
+    wheels: bool,
+    settings: MatchSettings = MatchSettings(),
+    rule: KeyframeRule = KeyframeRule(),
 ) -> Drift:
     """Follow a log by its scans.
 
@@ -45,11 +48,12 @@ def drift_of(
         records: with poses to compare with.
         wheels: whether the log's odometry guides the matches; else only the motion before does.
         settings: of the matcher.
+        rule: of its keyframes.
 
     Raises:
         ValueError: a record tells no pose.
     """
-    odometry = ScanOdometry(settings)
+    odometry = ScanOdometry(settings, rule)
     last: Pose | None = None
     found: list[Pose] = []
     true: list[Pose] = []
@@ -60,13 +64,13 @@ def drift_of(
         last = record.odometry
         found.append(odometry.update(record.scan, moved))
         true.append(record.pose)
-    steps = [math.dist(a[:2], b[:2]) for a, b in pairwise(true)]
-    way = np.concatenate(((0.0,), np.cumsum(steps)))
-    position, angle = _errors(found, true, way)
-    return Drift(len(true), float(way[-1]), odometry.lost, position, angle)
+    position, angle = stretch_errors(found, true)
+    return Drift(len(true), float(_way(true)[-1]), odometry.lost, position, angle)
 
 
-def _errors(found: list[Pose], true: list[Pose], way: FloatArray) -> tuple[FloatArray, FloatArray]:
+def stretch_errors(found: Sequence[Pose], true: Sequence[Pose]) -> tuple[FloatArray, FloatArray]:
+    """Errors of displacement, metres, and of the turn, radians, over each `DRIFT_STRETCH`."""
+    way = _way(true)
     stops = np.searchsorted(way, way + DRIFT_STRETCH)
     errors = [
         relative(relative(true[i], true[j]), relative(found[i], found[j]))
@@ -75,3 +79,10 @@ def _errors(found: list[Pose], true: list[Pose], way: FloatArray) -> tuple[Float
     ]
     table = np.array(errors).reshape(-1, 3)
     return np.hypot(table[:, 0], table[:, 1]), np.abs(table[:, 2])
+
+
+def _way(poses: Sequence[Pose]) -> FloatArray:
+    """Length of the way up to each pose, metres."""
+    steps = [math.dist(a[:2], b[:2]) for a, b in pairwise(poses)]
+    way: FloatArray = np.concatenate(((0.0,), np.cumsum(steps)))
+    return way

@@ -84,12 +84,18 @@ def _clouds(category: str, theirs: str) -> ThesisItem:
         "table 8.2",
         f"doors found in clouds of category {category}",
         theirs,
-        "{}; her pipeline on the same clouds, cropped by hand: {}",
+        "{}, with the 2D lidar {}; her pipeline on the same clouds, cropped by hand: {}, and "
+        "thinned to 1 cm: {}",
         "python -m studies clouds",
         tuple(
             [
                 Figure("lab/point_clouds.md", (name,), category)
-                for name in ("DoorFinder", "Mes 2021, crop by hand")
+                for name in (
+                    "DoorFinder",
+                    "DoorFinder and 2D lidar",
+                    "Mes 2021, crop by hand",
+                    "Mes 2021, crop by hand, cloud thinned to 1 cm",
+                )
             ]
         ),
     )
@@ -203,10 +209,16 @@ ITEMS = (
     ThesisItem(
         BARBRET,
         "6.3",
-        "inputs that lead into a door's parts are overridden",
+        "inputs that lead into a door's parts are overridden: contacts of a clumsy hand a command",
         "wished for",
-        NOT_BUILT,
-        "",
+        "{}; {} without",
+        "python -m studies assistance",
+        tuple(
+            [
+                Figure("guides/play.md", ("wheelchair, scripted, clumsy", assistance), "contacts")
+                for assistance in ("and doors", "none")
+            ]
+        ),
     ),
     _segmentation("(12) Weerakoon et al., 4 degrees", "92.4"),
     _segmentation("(6) Certad et al., 4 degrees: the default", "82.7"),
@@ -227,24 +239,70 @@ ITEMS = (
     ThesisItem(
         WEERAKOON,
         "table II",
-        "ten corner landmarks, fused over three poses",
-        "no error given",
-        NOT_BUILT,
-        "",
+        "ten corner landmarks fused over three scans, 20 mm of noise: error, claimed, mm",
+        "no error given; two scans of one corner are 42 to 260 mm apart",
+        "{}, {}; mean NEES {} of 2; {} by the paper's own equations",
+        "python -m studies landmarks --tables corners",
+        tuple(
+            [
+                Figure("lab/landmarks.md", ("all, 20 mm",), column)
+                for column in (
+                    "error, mm",
+                    "claimed, mm",
+                    "NEES of 2",
+                    "the paper's way: error, mm",
+                )
+            ]
+        ),
+    ),
+    ThesisItem(
+        WEERAKOON,
+        "IV",
+        "landmarks enhance the localization: real scans, drift over 10 m by walls, and with them",
+        "wished for",
+        "{}, {}",
+        "python -m studies landmarks --tables drift --data DATA",
+        tuple(
+            [
+                Figure(
+                    "lab/landmarks.md",
+                    ("freiburg-079", "simulated", correction),
+                    "drift per 10 m, median",
+                )
+                for correction in ("walls", "walls and landmarks")
+            ]
+        ),
     ),
     ThesisItem(
         WEERAKOON,
         "figure 11",
         "segments before and after merging of three scans",
         "15, then 9",
-        "not measured; `LineMap` merges walls",
-        "semnav map build LOG --out floor.geojson",
+        "{}, then {} in a corridor of that kind, mean of 100 trials",
+        "python -m studies landmarks --tables corners",
+        tuple([Figure("lab/landmarks.md", ("20 mm, figure 11",), c) for c in ("before", "after")]),
     ),
     _columns("0.3 m", "1 to 2 m"),
     _columns("0.4 m", "3 to 4 m"),
     _columns("1.0 m", "3 to 4 m"),
     ThesisItem(
-        YAN, "section 3", "arcs merged over several views", "by eye, no figure", NOT_BUILT, ""
+        YAN,
+        "section 3",
+        "arcs of a column of 0.6 m merged over six scans, 20 mm: error of centre, of radius, mm",
+        BY_EYE,
+        "{}, {}; {}, {} by a new fit to all points",
+        "python -m studies landmarks --tables columns",
+        tuple(
+            [
+                Figure("lab/landmarks.md", ("0.6 m", "20 mm", "6"), column)
+                for column in (
+                    "fused: centre",
+                    "fused: radius",
+                    "refitted: centre",
+                    "its radius",
+                )
+            ]
+        ),
     ),
     *[
         ThesisItem(
@@ -285,9 +343,14 @@ ITEMS = (
         "8.5",
         "single jambs found in all clouds",
         "0.708 (17 of 24)",
-        "{}",
+        "{}, with the 2D lidar {}",
         "python -m studies clouds",
-        (Figure("lab/point_clouds.md", ("DoorFinder",), "found"),),
+        tuple(
+            [
+                Figure("lab/point_clouds.md", (name,), "found")
+                for name in ("DoorFinder", "DoorFinder and 2D lidar")
+            ]
+        ),
     ),
     ThesisItem(
         MES,

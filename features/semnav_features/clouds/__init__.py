@@ -11,6 +11,7 @@ from semnav_features.clouds.clusters import euclidean_clusters
 from semnav_features.clouds.crop import CropBox, crop
 from semnav_features.clouds.detected_door import DetectedDoor, expect_door
 from semnav_features.clouds.finder import DoorFinder, find_door
+from semnav_features.clouds.joined import joined
 from semnav_features.clouds.lidar_doors import door_in_scene
 from semnav_features.clouds.mes import MesDetector, MesStep
 from semnav_features.clouds.outliers import remove_outliers
@@ -33,6 +34,7 @@ __all__ = [
     "expect_door",
     "find_door",
     "fused",
+    "joined",
     "pair_apart",
     "plane_inliers",
     "remove_outliers",

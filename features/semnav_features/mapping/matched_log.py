@@ -1,10 +1,11 @@
-"""A log whose scans are placed by matching them."""
+"""A log whose scans are placed by matching them, and by what they show again."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
 from semnav_features.frames import Pose, compose, relative
+from semnav_features.mapping.corrected_odometry import CorrectedOdometry
 from semnav_features.mapping.odometry import ScanOdometry
 from semnav_features.readers import LogRecord
 
@@ -19,17 +20,23 @@ def matched(
 ) -> Iterator[tuple[LogRecord, Pose]]:
     """The records with poses of the lidar from their scans, in the frame of the first scan.
 
+    Each scan is matched with the ones just before (`ScanOdometry`), and the drift that is left is
+    corrected by walls, corners and columns that were seen long before (`CorrectedOdometry`).
+
     Args:
         records: of a log, in order.
         odometry: the scan odometry, without a scan so far.
         mount: pose of the lidar on the robot, whose motion wheel odometry gives.
     """
     wheels: Pose | None = None
+    corrected, before = CorrectedOdometry(), odometry.pose
     for record in records:
         lidar = compose(record.odometry, mount) if record.odometry else None
         moved = relative(wheels, lidar) if wheels and lidar else None
         wheels = lidar
-        yield record, odometry.update(record.scan, moved)
+        matched_pose = odometry.update(record.scan, moved)
+        yield record, corrected.update(record.scan, relative(before, matched_pose))
+        before = matched_pose
 
 
 def loss_of(odometry: ScanOdometry, scans: int) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from semnav_features.frames import ORIGIN, Pose, compose, relative
+from semnav_features.mapping.far_matching import match_by_corners
 from semnav_features.mapping.matching import (
     DEFAULT_MATCH_SETTINGS,
     Match,
@@ -29,6 +30,9 @@ class KeyframeRule:
         inliers: a scan also becomes a keyframe if a smaller share of its points than this lies on
             the last one.
         trusted: least share of points on the keyframe for a valid match.
+        corners: whether a scan that matches badly, or not at all, is matched again from guesses by
+            its corners.
+        trusted_corners: least share of points on the keyframe for a valid match of that kind.
         lost: number of successive scans without a match after which the last becomes a keyframe.
     """
 
@@ -36,12 +40,15 @@ class KeyframeRule:
     angle: float = math.radians(20.0)
     inliers: float = 0.6
     trusted: float = 0.3
+    corners: bool = False
+    trusted_corners: float = 0.5
     lost: int = 3
 
 
 class _Placed(NamedTuple):
     """A scan and its pose."""
 
+    scan: Scan
     surface: ReferenceLines
     pose: Pose
 
@@ -98,11 +105,13 @@ class ScanOdometry:
         if self._last is not None:
             guess = compose(self.pose, self._moved if moved is None else moved)
             found = self._found(surface, guess)
+            if self._rule.corners and _inliers(self.match) < self._rule.inliers:
+                found = self._found_by_corners(scan, guess) or found
             self._lost_in_a_row = 0 if found else self._lost_in_a_row + 1
             self.lost += found is None
             self._moved = relative(self.pose, found or guess)
             self.pose = found or guess
-        self._last = _Placed(surface, self.pose)
+        self._last = _Placed(scan, surface, self.pose)
         if self._leaves_keyframe():
             self._keep(self._last)
         return self.pose
@@ -120,6 +129,22 @@ class ScanOdometry:
         if _inliers(self.match) < self._rule.trusted:
             self.match = None
         return compose(self._keyframe.pose, self.match.pose) if self.match else None
+
+    def _found_by_corners(self, scan: Scan, guess: Pose) -> Pose | None:
+        """The pose of a scan far from its guess, by corners; None if that is no better match."""
+        for reference in (self._keyframe, self._last):
+            assert reference is not None
+            start = relative(reference.pose, guess)
+            try:
+                match = match_by_corners(reference.scan, scan, start, self._settings)
+            except MatchError:
+                continue
+            if match.inliers >= max(self._rule.trusted_corners, _inliers(self.match)):
+                if reference is not self._keyframe:
+                    self._keep(reference)
+                self.match = match
+                return compose(reference.pose, match.pose)
+        return None
 
     def _match(self, reference: _Placed, surface: ReferenceLines, guess: Pose) -> Match | None:
         start = relative(reference.pose, guess)
