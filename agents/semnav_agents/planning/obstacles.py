@@ -14,7 +14,7 @@ from semnav_agents.planning.free import points_around
 from semnav_agents.planning.obstacle_kernels import (
     CENTRE,
     OBSTACLE_STATE,
-    TABLE_SIDE,
+    TABLE_SHAPE,
     MemoryClock,
     MemoryLimits,
     remember,
@@ -148,7 +148,7 @@ def memory_arrays(count: int, settings: MemorySettings) -> MemoryArrays:
     return (
         np.zeros(count, OBSTACLE_STATE),
         np.zeros((count, settings.capacity), CENTRE),
-        np.full((TABLE_SIDE, TABLE_SIDE), -1, np.int32),
+        np.full(TABLE_SHAPE, -1, np.int32),
     )
 
 
