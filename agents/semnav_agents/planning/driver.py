@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from semnav_agents.planning.cruise import CHANGING_COUNTS, fits, put_body, put_path
 from semnav_agents.planning.doorway import room_behind
 from semnav_agents.planning.follower import PathProgress, Steering, follow
 from semnav_agents.planning.free import points_around
@@ -17,6 +19,7 @@ from semnav_agents.planning.path import PlannedPath, joined
 from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
 from semnav_agents.planning.track import FollowerSettings, PathTrack
 from semnav_env.language.clauses import Speed
+from semnav_env.mind.observations.pace_entry import PACES
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import (
     ORIGIN,
@@ -109,6 +112,7 @@ class Driver:
         self.path: PlannedPath | None = None
         self.plans = 0
         self._track: PathTrack | None = None
+        self._written: PathTrack | None = None
         self._target: DriveTarget | None = None
         self._progress = PathProgress()
         self._shift: Pose = ORIGIN
@@ -117,6 +121,31 @@ class Driver:
         self._refusals = 0
         self._heeds_barriers = False
         self._yielded = self._around = self._barred = self._held = self._backing = 0
+
+    def put(self, record: Any) -> None:
+        """Write what compiled code must know to drive on, see `cruise.CRUISE`."""
+        counts, track = record["counts"], self._track
+        counts["ready"] = track is not None and not self._braking and fits(track)
+        if not counts["ready"] or track is None or self._target is None:
+            return
+        for name in (*CHANGING_COUNTS, "heeds_barriers"):
+            counts[name] = getattr(self, f"_{name}")
+        counts["pace"] = PACES.index(self._pace)
+        counts["leg"], counts["sample"] = self._progress.leg, self._progress.sample
+        record["shift"] = self._shift
+        if track is not self._written:
+            self._written = track
+            put_path(record, track, self._target)
+            put_body(record, self.robot, self.check_every, self.tolerance)
+
+    def take(self, record: Any) -> None:
+        """Read what compiled code has changed."""
+        counts = record["counts"]
+        for name in CHANGING_COUNTS:
+            setattr(self, f"_{name}", int(counts[name]))
+        self._progress = PathProgress(int(counts["leg"]), int(counts["sample"]))
+        x, y, heading = record["shift"].tolist()
+        self._shift = x, y, heading
 
     def plan_at_once(self) -> None:
         """Plan to the next target without standing still first."""

@@ -85,6 +85,20 @@ class MemoryLimits(NamedTuple):
     max_age: MemoryClock
 
 
+class SelectionLimits(NamedTuple):
+    """Those of `MemorySettings` that decide which centres count as obstacles.
+
+    Attributes:
+        sure: least number of hits.
+        share: least number of hits, as a share of a neighbour's.
+        blunt: length by which the ends of walls are shortened, metres.
+    """
+
+    sure: int
+    share: float
+    blunt: float
+
+
 @kernel
 def remember(
     state: Any,
@@ -338,9 +352,7 @@ def select(
     x: float,
     y: float,
     reach: float,
-    sure: int,
-    share: float,
-    blunt: float,
+    limits: SelectionLimits,
 ) -> FloatArray:
     """Positions of the centres that were hit often enough, by themselves and beside neighbours.
 
@@ -353,10 +365,9 @@ def select(
         x: of the middle of the square in which positions are wanted, metres.
         y: the same.
         reach: half the side of that square, metres; some positions lie beside it.
-        sure: least number of hits.
-        share: least number of hits, as a share of a neighbour's.
-        blunt: length by which the ends of walls are shortened, metres.
+        limits: of what counts.
     """
+    sure, share, blunt = limits.sure, limits.share, limits.blunt
     chosen, n = np.empty(len(centres), np.int64), 0
     wide = reach + blunt + NEIGHBOUR_REACH
     for k in range(len(centres)):

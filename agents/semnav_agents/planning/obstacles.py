@@ -17,6 +17,7 @@ from semnav_agents.planning.obstacle_kernels import (
     TABLE_SHAPE,
     MemoryClock,
     MemoryLimits,
+    SelectionLimits,
     remember,
     select,
 )
@@ -63,6 +64,11 @@ class MemorySettings:
         """What decides what is remembered, as kernels take it."""
         max_age = MemoryClock(float(self.scans), self.travel, self.turned)
         return MemoryLimits(self.radius, self.merge, self.window, self.through, max_age)
+
+    @cached_property
+    def selection(self) -> SelectionLimits:
+        """What decides which centres count, as kernels take it."""
+        return SelectionLimits(self.sure, self.share, self.blunt)
 
 
 MemoryArrays: TypeAlias = tuple[np.ndarray, np.ndarray, NDArray[np.int32]]
@@ -138,8 +144,8 @@ class ObstacleMemory:
         return points_around(pose, self._select(pose[0], pose[1], reach), reach)
 
     def _select(self, x: float, y: float, reach: float) -> FloatArray:
-        s, centres = self.settings, self._centres[0, : self._state["count"][0]]
-        chosen: FloatArray = select(centres, self._table, x, y, reach, s.sure, s.share, s.blunt)
+        centres = self._centres[0, : self._state["count"][0]]
+        chosen: FloatArray = select(centres, self._table, x, y, reach, self.settings.selection)
         return chosen
 
 

@@ -45,6 +45,7 @@ class Perception:
         settings = MemorySettings()
         self._perceivers = np.zeros(robots, PERCEIVER)
         self._memory, self._limits = memory_arrays(robots, settings), settings.limits
+        self._selection = settings.selection
         state, centres, table = self._memory
         self.obstacles = [
             ObstacleMemory(settings, (state[k : k + 1], centres[k : k + 1], table))
@@ -84,6 +85,16 @@ class Perception:
         """
         told = self._perceivers, self._directions, *self._memory, self._limits
         perceive(odometry, scans, driven, *told, self._moving)
+
+    @property
+    def memory(self) -> tuple[Any, ...]:
+        """States, centres, table and what counts of them, as `obstacle_kernels.select` takes it."""
+        return *self._memory, self._selection
+
+    @property
+    def any_moving(self) -> NDArray[np.bool_]:
+        """Whether something moves around each robot, shape (n,)."""
+        return self._moving.any(axis=1)
 
     def moving(self, index: int, pose: Pose, scan: NDArray[np.float32]) -> FloatArray:
         """Where something moves around a robot at a pose, in the frame of it, shape (m, 2)."""
