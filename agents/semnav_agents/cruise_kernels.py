@@ -15,7 +15,7 @@ from semnav_agents.pilot import (
     STUCK_STEPS,
 )
 from semnav_agents.planning.doorway import THROUGH_DISTANCE, THROUGH_TOLERANCE
-from semnav_agents.planning.driver import LOOKAHEAD, REPLAN_SHARE
+from semnav_agents.planning.driver import CHECKED_LENGTH, NUDGED_LENGTH, REPLAN_SHARE
 from semnav_agents.planning.exit_via_door import (
     MAX_OBSTACLE_DISTANCE,
     POSE_HEADING_TOLERANCE,
@@ -27,7 +27,7 @@ from semnav_agents.planning.free import points_around
 from semnav_agents.planning.guard import FORESIGHT, free_share
 from semnav_agents.planning.motion import Move
 from semnav_agents.planning.nudge import best_nudge, path_clearances
-from semnav_agents.planning.obstacle_kernels import SelectionLimits, select
+from semnav_agents.planning.obstacle_kernels import Box, SelectionLimits, box_around, select
 from semnav_agents.planning.track import TrackArrays
 from semnav_env.mind.grounding.goal import GoalKind
 from semnav_features.frames import (
@@ -45,6 +45,10 @@ from semnav_features.kernels.exact_hypot import exact_hypot
 
 PASS, SEEK, STOP = int(GoalKind.PASS), int(GoalKind.SEEK), int(GoalKind.STOP)
 """Kinds of goals, as numbers that kernels know."""
+
+PATH_ROOM = 0.25
+"""Distance beside the footprints on a path within which points matter to it, besides the margin,
+metres: the diagonal of `RELEVANT_DISTANCE`, and the largest correction at the end of the path."""
 
 Jambs = tuple[float, float, float, float]
 """x and y of both jambs of a door, metres."""
@@ -121,8 +125,10 @@ def _go_on(
     checks = step % int(body.check_every) == 0
     if checks and n.heeds_barriers:
         return False
-    reach = LOOKAHEAD if checks else 1.5 * body.length
-    seen = _seen(select(centres, table, pose[0], pose[1], reach, limits), goal, jambs, pose, reach)
+    box = box_around(pose[0], pose[1], 1.5 * body.length)
+    if checks:
+        box = _around_path(robot, box)
+    seen = _seen(select(centres, table, box, limits), goal, jambs, pose)
     if checks:
         is_free, shift = _stays_free(robot, seen, pose)
         if not is_free:
@@ -201,9 +207,7 @@ def _place_target(goal: NDArray[np.float32], kind: int, pose: Pose) -> Aim:
 
 
 @kernel
-def _door_target(
-    robot: Any, jambs: Jambs, outward: float
-) -> tuple[bool, Aim, tuple[float, float]]:
+def _door_target(robot: Any, jambs: Jambs, outward: float) -> tuple[bool, Aim, tuple[float, float]]:
     """The target of `ExitViaDoor`, and the middle of the door.
 
     Returns:
@@ -238,15 +242,16 @@ def _door_target(
 def _has_moved(planned: FloatArray, aim: Aim) -> bool:
     """Whether a path to the planned target may not reach this one."""
     turned = abs(wrap_angle(planned[2] - aim.heading))
-    if exact_hypot(planned[0] - aim.x, planned[1] - aim.y) > 0.5 * aim.near or aim.near < planned[3]:
+    if (
+        exact_hypot(planned[0] - aim.x, planned[1] - aim.y) > 0.5 * aim.near
+        or aim.near < planned[3]
+    ):
         return True
     return not math.isnan(aim.turned) and (math.isnan(planned[4]) or turned > 0.5 * aim.turned)
 
 
 @kernel
-def _seen(
-    points: FloatArray, goal: NDArray[np.float32], jambs: Jambs, pose: Pose, reach: float
-) -> FloatArray:
+def _seen(points: FloatArray, goal: NDArray[np.float32], jambs: Jambs, pose: Pose) -> FloatArray:
     """Obstacles around the robot and the jambs of the goal's door, robot frame, shape (m, 2)."""
     solid = np.empty((len(points) + 2, 2))
     n = len(points)
@@ -255,7 +260,21 @@ def _seen(
     if goal[12] > 0.5:
         solid[n, 0], solid[n, 1], solid[n + 1, 0], solid[n + 1, 1] = jambs
         n += 2
-    return points_around(pose, solid[:n], reach)
+    return points_around(pose, solid[:n], math.inf)
+
+
+@kernel
+def _around_path(robot: Any, box: Box) -> Box:
+    """A box, grown to hold all places that matter to the next metres of the path."""
+    half = exact_hypot(robot.body.length, robot.body.width) / 2
+    more = half + PATH_ROOM + 1.5 * robot.margin
+    shift = robot.shift[0], robot.shift[1], robot.shift[2]
+    poses = _ahead(robot, shift, CHECKED_LENGTH)
+    left, lower, right, upper = box
+    for k in range(len(poses)):
+        left, right = min(left, poses[k, 0] - more), max(right, poses[k, 0] + more)
+        lower, upper = min(lower, poses[k, 1] - more), max(upper, poses[k, 1] + more)
+    return Box(left, lower, right, upper)
 
 
 @kernel
@@ -263,11 +282,12 @@ def _stays_free(robot: Any, seen: FloatArray, pose: Pose) -> tuple[bool, Pose]:
     """Whether the next metres of the path are free, and the frame of the corrected path."""
     length, width, margin = robot.body.length, robot.body.width, robot.margin
     shift = robot.shift[0], robot.shift[1], robot.shift[2]
-    near = _ahead(robot, relative(pose, shift), 1.2)
+    near = _ahead(robot, relative(pose, shift), NUDGED_LENGTH)
     left, turn, _ = best_nudge(seen, near, length, width, margin + 0.005)
     if left != 0.0 or turn != 0.0:
         shift = compose(pose, compose((0.0, left, turn), relative(pose, shift)))
-    now = path_clearances(seen, _ahead(robot, relative(pose, shift), 2.5), length, width, margin)
+    far = _ahead(robot, relative(pose, shift), CHECKED_LENGTH)
+    now = path_clearances(seen, far, length, width, margin)
     first = robot.counts.sample
     for k in range(len(now)):
         planned = min(robot.clearance[first + 2 * k], margin)

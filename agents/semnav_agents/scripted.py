@@ -91,7 +91,9 @@ class ScriptedTeam:
         robots, size = len(self._pilots), self._action_size
         actions, decided = np.zeros((robots, size), np.float32), np.zeros(robots, np.bool_)
         bumped = seen["bumps_mask"].max(axis=1) > 0.5 if "bumps" in seen else decided
-        paces = seen["pace"][:, 0].astype(np.int64) if "pace" in seen else np.zeros(robots, np.int64)
+        paces = (
+            seen["pace"][:, 0].astype(np.int64) if "pace" in seen else np.zeros(robots, np.int64)
+        )
         cruise(
             self._cruises,
             driven,

@@ -17,7 +17,6 @@ from semnav_agents.planning.planner import DriveTarget
 from semnav_agents.planning.track import FollowerLimits, PathTrack
 from semnav_env.robots import RobotSpec
 
-
 MAX_SAMPLES, MAX_LEGS = 2048, 256
 """Room for a path in a record: 80 m, at 4 cm a sample. A robot with a longer path never cruises."""
 

@@ -42,6 +42,9 @@ REPLAN_SHARE = 0.3
 """Share of a partial path that is left when it is planned again; for long paths, one metre is left.
 Most of the path must have been driven: from the same place the same path would be found again."""
 
+NUDGED_LENGTH, CHECKED_LENGTH = 1.2, 2.5
+"""Length of the path ahead that is corrected, and that must be free, metres."""
+
 LOOKAHEAD = 4.0
 """Distance beyond which obstacles do not matter to the next metres of a path, metres."""
 
@@ -395,12 +398,12 @@ class Driver:
         assert self.path is not None
         seen, margin = obstacles.near(pose, LOOKAHEAD), self.path.margin
         size = (self.robot.length, self.robot.width)
-        left, turn, _ = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
+        left, turn, _ = best_nudge(seen, self._ahead(pose, NUDGED_LENGTH), *size, margin + 0.005)
         if left or turn:
             shift = compose((0.0, left, turn), relative(pose, self._shift))
             self._shift = compose(pose, shift)
-        planned = self.path.clearance[self._samples_ahead(2.5)]
-        now = path_clearances(seen, self._ahead(pose, 2.5), *size, margin)
+        planned = self.path.clearance[self._samples_ahead(CHECKED_LENGTH)]
+        now = path_clearances(seen, self._ahead(pose, CHECKED_LENGTH), *size, margin)
         return bool((now > np.minimum(planned, margin) - self.tolerance).all())
 
     def _samples_ahead(self, distance: float) -> slice:

@@ -18,6 +18,7 @@ from semnav_agents.planning.obstacle_kernels import (
     MemoryClock,
     MemoryLimits,
     SelectionLimits,
+    box_around,
     remember,
     select,
 )
@@ -145,7 +146,9 @@ class ObstacleMemory:
 
     def _select(self, x: float, y: float, reach: float) -> FloatArray:
         centres = self._centres[0, : self._state["count"][0]]
-        chosen: FloatArray = select(centres, self._table, x, y, reach, self.settings.selection)
+        chosen: FloatArray = select(
+            centres, self._table, box_around(x, y, reach), self.settings.selection
+        )
         return chosen
 
 

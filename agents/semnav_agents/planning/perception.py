@@ -94,7 +94,8 @@ class Perception:
     @property
     def any_moving(self) -> NDArray[np.bool_]:
         """Whether something moves around each robot, shape (n,)."""
-        return self._moving.any(axis=1)
+        moving: NDArray[np.bool_] = self._moving.any(axis=1)
+        return moving
 
     def moving(self, index: int, pose: Pose, scan: NDArray[np.float32]) -> FloatArray:
         """Where something moves around a robot at a pose, in the frame of it, shape (m, 2)."""
