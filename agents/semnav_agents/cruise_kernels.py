@@ -27,7 +27,7 @@ from semnav_agents.planning.free import points_around
 from semnav_agents.planning.guard import FORESIGHT, free_share
 from semnav_agents.planning.motion import Move
 from semnav_agents.planning.nudge import best_nudge, path_clearances
-from semnav_agents.planning.obstacle_kernels import Box, SelectionLimits, box_around, select
+from semnav_agents.planning.obstacle_kernels import SearchBox, SelectionLimits, box_around, select
 from semnav_agents.planning.track import TrackArrays
 from semnav_env.mind.grounding.goal import GoalKind
 from semnav_features.frames import (
@@ -186,7 +186,7 @@ def _jambs(goal: NDArray[np.float32], pose: Pose) -> Jambs:
     return a[0], a[1], b[0], b[1]
 
 
-class Aim(NamedTuple):
+class CruiseTarget(NamedTuple):
     """A `DriveTarget` without gate; the tolerance of heading is NaN where any heading will do."""
 
     x: float
@@ -197,17 +197,19 @@ class Aim(NamedTuple):
 
 
 @kernel
-def _place_target(goal: NDArray[np.float32], kind: int, pose: Pose) -> Aim:
+def _place_target(goal: NDArray[np.float32], kind: int, pose: Pose) -> CruiseTarget:
     """The target of a goal that is no door."""
     seen = np.float64(goal[4]), np.float64(goal[5]), _heading(goal)
     x, y, heading = compose(pose, seen)
     if kind == SEEK:
-        return Aim(x, y, heading, LOOKOUT_TOLERANCE, math.nan)
-    return Aim(x, y, heading, REACH_TOLERANCE, REACH_HEADING_TOLERANCE)
+        return CruiseTarget(x, y, heading, LOOKOUT_TOLERANCE, math.nan)
+    return CruiseTarget(x, y, heading, REACH_TOLERANCE, REACH_HEADING_TOLERANCE)
 
 
 @kernel
-def _door_target(robot: Any, jambs: Jambs, outward: float) -> tuple[bool, Aim, tuple[float, float]]:
+def _door_target(
+    robot: Any, jambs: Jambs, outward: float
+) -> tuple[bool, CruiseTarget, tuple[float, float]]:
     """The target of `ExitViaDoor`, and the middle of the door.
 
     Returns:
@@ -215,7 +217,7 @@ def _door_target(robot: Any, jambs: Jambs, outward: float) -> tuple[bool, Aim, t
     """
     ax, ay, bx, by = jambs
     middle = (ax + bx) / 2, (ay + by) / 2
-    nowhere = Aim(0.0, 0.0, 0.0, 0.0, math.nan)
+    nowhere = CruiseTarget(0.0, 0.0, 0.0, 0.0, math.nan)
     if not exact_hypot(ax - bx, ay - by) >= 1e-6 or not robot.counts.knows_door:
         return False, nowhere, middle
     if exact_hypot(robot.door[0] - middle[0], robot.door[1] - middle[1]) > SAME_DOOR_DISTANCE:
@@ -228,18 +230,18 @@ def _door_target(robot: Any, jambs: Jambs, outward: float) -> tuple[bool, Aim, t
     frame = middle[0], middle[1], through
     if robot.counts.aims_at_pose:
         x, y, heading = compose(frame, (robot.door[2], robot.door[3], robot.door[4]))
-        return True, Aim(x, y, heading, POSE_TOLERANCE, POSE_HEADING_TOLERANCE), middle
+        return True, CruiseTarget(x, y, heading, POSE_TOLERANCE, POSE_HEADING_TOLERANCE), middle
     heading = math.atan2(by - ay, bx - ax) + math.pi / 2
     c, s = math.cos(heading), math.sin(heading)
     place = to_parent(frame, (-1.0, 0.0))
     if (place[0] - middle[0]) * c + (place[1] - middle[1]) * s > 0:
         heading, c, s = wrap_angle(heading + math.pi), -c, -s
     x, y = middle[0] + THROUGH_DISTANCE * c, middle[1] + THROUGH_DISTANCE * s
-    return True, Aim(x, y, wrap_angle(heading), THROUGH_TOLERANCE, math.nan), middle
+    return True, CruiseTarget(x, y, wrap_angle(heading), THROUGH_TOLERANCE, math.nan), middle
 
 
 @kernel
-def _has_moved(planned: FloatArray, aim: Aim) -> bool:
+def _has_moved(planned: FloatArray, aim: CruiseTarget) -> bool:
     """Whether a path to the planned target may not reach this one."""
     turned = abs(wrap_angle(planned[2] - aim.heading))
     if (
@@ -264,7 +266,7 @@ def _seen(points: FloatArray, goal: NDArray[np.float32], jambs: Jambs, pose: Pos
 
 
 @kernel
-def _around_path(robot: Any, box: Box) -> Box:
+def _around_path(robot: Any, box: SearchBox) -> SearchBox:
     """A box, grown to hold all places that matter to the next metres of the path."""
     half = exact_hypot(robot.body.length, robot.body.width) / 2
     more = half + PATH_ROOM + 1.5 * robot.margin
@@ -274,7 +276,7 @@ def _around_path(robot: Any, box: Box) -> Box:
     for k in range(len(poses)):
         left, right = min(left, poses[k, 0] - more), max(right, poses[k, 0] + more)
         lower, upper = min(lower, poses[k, 1] - more), max(upper, poses[k, 1] + more)
-    return Box(left, lower, right, upper)
+    return SearchBox(left, lower, right, upper)
 
 
 @kernel

@@ -348,7 +348,7 @@ def _nearest(
     return best
 
 
-class Box(NamedTuple):
+class SearchBox(NamedTuple):
     """A rectangle along the axes, metres."""
 
     left: float
@@ -358,20 +358,20 @@ class Box(NamedTuple):
 
 
 @kernel
-def box_around(x: float, y: float, reach: float) -> Box:
+def box_around(x: float, y: float, reach: float) -> SearchBox:
     """The square of half side `reach` around a place."""
-    return Box(x - reach, y - reach, x + reach, y + reach)
+    return SearchBox(x - reach, y - reach, x + reach, y + reach)
 
 
 @kernel
-def _holds(box: Box, x: float, y: float, more: float) -> bool:
+def _holds(box: SearchBox, x: float, y: float, more: float) -> bool:
     """Whether a place lies in a box that is wider by `more` at each side."""
     return box.left - more < x < box.right + more and box.lower - more < y < box.upper + more
 
 
 @kernel
 def select(
-    centres: NDArray[Any], table: NDArray[np.int32], box: Box, limits: SelectionLimits
+    centres: NDArray[Any], table: NDArray[np.int32], box: SearchBox, limits: SelectionLimits
 ) -> FloatArray:
     """Positions of the centres that were hit often enough, by themselves and beside neighbours.
 
@@ -405,7 +405,7 @@ def _sure_points(
     centres: NDArray[Any],
     chosen: NDArray[np.int64],
     table: NDArray[np.int32],
-    box: Box,
+    box: SearchBox,
     limits: SelectionLimits,
 ) -> FloatArray:
     """See `select`; of the chosen centres those in the box."""
