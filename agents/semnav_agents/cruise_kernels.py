@@ -32,6 +32,7 @@ from semnav_agents.planning.track import TrackArrays
 from semnav_env.mind.grounding.goal import GoalKind
 from semnav_features.frames import (
     FloatArray,
+    Point,
     Pose,
     Twist,
     compose,
@@ -207,9 +208,7 @@ def _place_target(goal: NDArray[np.float32], kind: int, pose: Pose) -> CruiseTar
 
 
 @kernel
-def _door_target(
-    robot: Any, jambs: Jambs, outward: float
-) -> tuple[bool, CruiseTarget, tuple[float, float]]:
+def _door_target(robot: Any, jambs: Jambs, outward: float) -> tuple[bool, CruiseTarget, Point]:
     """The target of `ExitViaDoor`, and the middle of the door.
 
     Returns:
@@ -327,7 +326,7 @@ def _track(robot: Any) -> TrackArrays:
 
 
 @kernel
-def _is_noted(robot: Any, middle: tuple[float, float], done: bool) -> bool:
+def _is_noted(robot: Any, middle: Point, done: bool) -> bool:
     """Whether `ExitViaDoor` is to be told that a pose was reached or a path failed."""
     if robot.complete:
         return done

@@ -148,9 +148,7 @@ def mark_maybe_free(
             dx, dy = x[i] - from_x, y[i] - from_y
             sector = np.int32(rough_angle(dx, dy) * (1.0 / SECTOR_ANGLE) + SECTORS) - SECTORS
             sector = sector + SECTORS if sector < 0 else sector
-            sectors[i] = int(
-                min(max(sector, 0), SECTORS - 1)
-            )  # also for places that are not finite
+            sectors[i] = int(min(max(sector, 0), SECTORS - 1))  # also where x is not finite
             squared[i] = dx * dx + dy * dy
         for i in range(len(maybe)):
             least = ranges[sectors[i]] - (FREE_DEPTH - 1e-5)
