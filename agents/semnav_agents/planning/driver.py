@@ -59,8 +59,8 @@ YIELD_DISTANCE, YIELD_SECONDS = 0.5, 1.2
 and seconds."""
 
 GATE_DETOUR = 6.0
-"""Length by which a path around barriers to a gate may exceed what `detour` allows, metres: the robot
-may have to turn in the hallway first. A longer one leads through what has not been seen."""
+"""Length by which a path around barriers to a gate may exceed what `detour` allows, metres: the
+robot may have to turn in the hallway first. A longer one leads through what has not been seen."""
 
 EVASION_LENGTH = 1.5
 """Length by which a path around what moves may exceed what `detour` allows, metres: the robot may

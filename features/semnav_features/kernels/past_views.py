@@ -146,9 +146,9 @@ def mark_maybe_free(
         from_x, from_y, ranges = views.places[v, 0], views.places[v, 1], views.ranges[v]
         for i in range(len(maybe)):  # apart from the look-up, so that it takes many at once
             dx, dy = x[i] - from_x, y[i] - from_y
-            sector = np.int32(rough_angle(dx, dy) * (1.0 / SECTOR_ANGLE) + SECTORS) - SECTORS
+            sector: Any = np.int32(rough_angle(dx, dy) * (1.0 / SECTOR_ANGLE) + SECTORS) - SECTORS
             sector = sector + SECTORS if sector < 0 else sector
-            sectors[i] = int(min(max(sector, 0), SECTORS - 1))  # also where x is not finite
+            sectors[i] = min(max(sector, 0), SECTORS - 1)  # also where x is not finite
             squared[i] = dx * dx + dy * dy
         for i in range(len(maybe)):
             least = ranges[sectors[i]] - (FREE_DEPTH - 1e-5)
