@@ -108,7 +108,7 @@ def _go_on(
     heading = math.atan2(np.float64(odometry[3]), np.float64(odometry[2]))
     pose = np.float64(odometry[0]), np.float64(odometry[1]), heading
     velocity = np.float64(odometry[4]), np.float64(odometry[5]), np.float64(odometry[6])
-    kind = np.argmax(goal[:4])
+    kind = int(np.argmax(goal[:4]))
     pushed = n.pushed + 1 if _pushes(robot.last, velocity) else 0
     if kind == STOP or n.backing_out > 0 or pushed >= STUCK_STEPS:
         return False

@@ -94,6 +94,7 @@ class ScriptedTeam:
         paces = (
             seen["pace"][:, 0].astype(np.int64) if "pace" in seen else np.zeros(robots, np.int64)
         )
+        states, centres, table, limits = self._perception.memory
         cruise(
             self._cruises,
             driven,
@@ -101,7 +102,10 @@ class ScriptedTeam:
             seen["goal"],
             paces,
             bumped | self._perception.any_moving,
-            *self._perception.memory,
+            states,
+            centres,
+            table,
+            limits,
             actions,
             decided,
         )

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.planning.moving import mark_moving
-from semnav_agents.planning.obstacle_kernels import MemoryLimits, remember
+from semnav_agents.planning.obstacle_kernels import MemoryLimits, SelectionLimits, remember
 from semnav_agents.planning.obstacles import MemorySettings, ObstacleMemory, memory_arrays
 from semnav_features.frames import FloatArray, Pose, compose, points_to_parent
 from semnav_features.kernels.compiling import kernel
@@ -87,15 +87,15 @@ class Perception:
         perceive(odometry, scans, driven, *told, self._moving)
 
     @property
-    def memory(self) -> tuple[Any, ...]:
+    def memory(self) -> tuple[Any, Any, Any, SelectionLimits]:
         """States, centres, table and what counts of them, as `obstacle_kernels.select` takes it."""
-        return *self._memory, self._selection
+        states, centres, table = self._memory
+        return states, centres, table, self._selection
 
     @property
     def any_moving(self) -> NDArray[np.bool_]:
         """Whether something moves around each robot, shape (n,)."""
-        moving: NDArray[np.bool_] = self._moving.any(axis=1)
-        return moving
+        return np.asarray(self._moving.any(axis=1), np.bool_)
 
     def moving(self, index: int, pose: Pose, scan: NDArray[np.float32]) -> FloatArray:
         """Where something moves around a robot at a pose, in the frame of it, shape (m, 2)."""
