@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -111,6 +112,23 @@ class Pilot:
             self._note(steering, obstacles)
         self._last = steering.twist
         return self._action(*steering.twist)
+
+    def put(self, record: Any) -> None:
+        """Write what compiled code must know to drive on, see `cruise.CRUISE`."""
+        self.driver.put(record)
+        counts = record["counts"]
+        if counts["ready"]:
+            self._exit.put(record)
+            counts["pushed"], counts["backing_out"] = self._pushed, self._backing
+            record["last"] = self._last
+
+    def take(self, record: Any) -> None:
+        """Read what compiled code has changed."""
+        self.driver.take(record)
+        self._exit.take(record)
+        self._pushed = int(record["counts"]["pushed"])
+        forward, left, yaw_rate = record["last"].tolist()
+        self._last = forward, left, yaw_rate
 
     def _barriers(self, doors: FloatArray, goal: SeenGoal, pose: Pose) -> FloatArray:
         """Points across the doors that are not the goal's, in the frame of `pose`."""

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
+from semnav_agents.cruise_kernels import cruise
 from semnav_agents.pilot import Pilot
+from semnav_agents.planning.cruise import CRUISE
 from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_agents.planning.perception import Perception
@@ -47,11 +49,16 @@ class ScriptedTeam:
     def __init__(self, robots: int) -> None:
         self._perception = Perception(robots)
         self._pilots: list[Pilot | None] = [None] * robots
+        self._cruises = np.zeros(robots, CRUISE)
+        self._cruised = np.zeros(robots, np.bool_)
 
     def reset(self, index: int, info: dict[str, Any], floor_plan: FloorPlan | None = None) -> None:
         """Begin an episode of a robot with the body and the lidar of `info`."""
         body = RobotSpec(**info["robot"])
+        self._action_size = body.action_size
         self._pilots[index] = Pilot(body)
+        self._cruised[index] = False
+        self._cruises["counts"]["ready"][index] = False
         self._perception.reset(index, body.lidar_mount, LidarSpec(**info["lidar"]))
 
     def act(
@@ -71,21 +78,55 @@ class ScriptedTeam:
         numbers = np.array(range(len(self._pilots)) if driven is None else list(driven), np.int64)
         seen = {name: observations[name] for name in ENTRIES if name in observations}
         self._perception.update(seen["odometry"], seen["scan"], numbers)
-        chosen = [
-            self._decide(k, {name: values[k] for name, values in seen.items()})
-            for k in numbers.tolist()
-        ]
-        actions = np.zeros((len(self._pilots), len(chosen[0])), np.float32)
-        actions[numbers] = chosen
-        return actions
+        return self._decide(seen, numbers)
 
     def own_goal(self, index: int) -> Pose | None:
         """None: robots drive to the goals of their beliefs."""
 
-    def _decide(self, index: int, observation: Observation) -> NDArray[np.float32]:
-        """The action of one robot, whose scan has been taken in."""
-        pilot = self._pilots[index]
+    def _decide(self, seen: Observation, driven: NDArray[np.int64]) -> NDArray[np.float32]:
+        """The actions of robots whose scans have been taken in.
+
+        Compiled code decides for those that cruise; the others decide one by one.
+        """
+        robots, size = len(self._pilots), self._action_size
+        actions, decided = np.zeros((robots, size), np.float32), np.zeros(robots, np.bool_)
+        bumped = seen["bumps_mask"].max(axis=1) > 0.5 if "bumps" in seen else decided
+        paces = (
+            seen["pace"][:, 0].astype(np.int64) if "pace" in seen else np.zeros(robots, np.int64)
+        )
+        states, centres, table, limits = self._perception.memory
+        cruise(
+            self._cruises,
+            driven,
+            seen["odometry"],
+            seen["goal"],
+            paces,
+            bumped | self._perception.any_moving,
+            states,
+            centres,
+            table,
+            limits,
+            actions,
+            decided,
+        )
+        self._cruised |= decided
+        for k in driven[~decided[driven]].tolist():
+            actions[k] = self._decide_alone(k, {name: values[k] for name, values in seen.items()})
+        return actions
+
+    def _decide_alone(self, index: int, observation: Observation) -> NDArray[np.float32]:
+        """The action of one robot, to which anything may have happened."""
+        pilot, record = self._pilots[index], self._cruises[index]
         assert pilot is not None
+        if self._cruised[index]:
+            pilot.take(record)
+            self._cruised[index] = False
+        action = self._act(index, pilot, observation)
+        pilot.put(record)
+        return action
+
+    def _act(self, index: int, pilot: Pilot, observation: Observation) -> NDArray[np.float32]:
+        """The action of a robot by its pilot."""
         pose, velocity = read_odometry(observation)
         return pilot.act(
             with_felt_walls(self._perception.obstacles[index], observation, pose),

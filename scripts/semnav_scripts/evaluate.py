@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import asdict, dataclass
+from itertools import chain
 from pathlib import Path
 from statistics import fmean, median
 from typing import Annotated, Any
@@ -28,7 +29,8 @@ from semnav_agents.evaluation import (
     usual_agent,
 )
 from semnav_agents.evaluation.provenance import provenance
-from semnav_agents.evaluation.runner import JOBS_OF_A_SHARE
+from semnav_agents.evaluation.resuming import parts_left, results_so_far, rows_so_far
+from semnav_agents.evaluation.runner import JOBS_OF_A_SHARE, SuiteJob, suite_jobs
 from semnav_agents.learned import agent_label
 from semnav_env.judge.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.rendering.backend import load_pygame
@@ -75,6 +77,8 @@ class Arguments:
         dynamics: people, doors and furniture that move.
         out: file for the episodes, one JSON object in each line, written as they are driven. Until
             the end or an interruption this file is `.NAME-....part.jsonl` beside the target.
+        resume: go on with what an ended or killed run has written to --out; what it drove is not
+            driven again, and the file becomes the same.
         json: print the table as JSON.
     """
 
@@ -92,6 +96,7 @@ class Arguments:
     html: Path | None = None
     dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
     out: Path | None = None
+    resume: bool = False
     json: bool = False
 
     def run(self) -> int:
@@ -110,14 +115,16 @@ class Arguments:
         if any(isinstance(t, Episode) and t.expected is Expected.AMBIGUOUS for t in trials):
             return self._ask([trial for trial in trials if isinstance(trial, Episode)])
         seeds = range(first, first + count)
-        total = len(trials) if isinstance(trials[0], Episode) else len(trials) * len(seeds)
+        jobs = suite_jobs(trials, seeds)
+        total = len(jobs)
         extras = Extras(self.recheck, self.pictures, self.films, keep=self.html is not None)
         workers = self.workers or min(os.cpu_count() or 1, -(-total // JOBS_OF_A_SHARE))
         how = workers, extras, self.dynamics, self.lidar
         agent = self.agent or usual_agent(trials)
         who = self._who(agent)
-        driven = without_excess(run_suite(trials, agent, self.robot, seeds, *how))
-        results = self._drive(driven, total, who)
+        known = self._known(jobs, who)
+        suite_run = run_suite(trials, agent, self.robot, seeds, *how, skip=len(known))
+        results = self._drive(without_excess(chain(known, suite_run)), total, who)
         groups = list(dict.fromkeys(trial.group for trial in trials))
         if isinstance(trials[0], Episode):
             groups.sort()
@@ -137,6 +144,12 @@ class Arguments:
         check_distinct({"--out": self.out, "--html": self.html})
         if self.html is not None:
             check_suffix(self.html, (".html",))
+        if self.resume and self.out is None:
+            raise ValueError("--resume goes on with the file of --out; give it")
+        again = {"recheck": self.recheck, "pictures": self.pictures, "films": self.films}
+        for name, value in (again | {"html": self.html}).items():
+            if self.resume and value:
+                raise ValueError(f"--{name} needs all drives; leave out --resume")
         check_folder(self.pictures, "--pictures")
         check_folder(self.films, "--films")
         if self.films is not None:
@@ -152,6 +165,12 @@ class Arguments:
             who |= {"lidar": self.lidar}
         return who | provenance().row()
 
+    def _known(self, jobs: Sequence[SuiteJob], who: dict[str, Any]) -> list[Result]:
+        """The results of an earlier run that are gone on with."""
+        if not self.resume or self.out is None:
+            return []
+        return results_so_far(rows_so_far(self.out), jobs, who, self.out)
+
     def _drive(self, episodes: Iterator[Result], total: int, who: dict[str, Any]) -> list[Result]:
         """All results; each is written at once, so that an interruption loses none."""
         results: list[Result] = []
@@ -162,6 +181,9 @@ class Arguments:
                 results.append(result)
                 if out:
                     out.write(who | result.row())
+        if self.resume and self.out is not None:
+            for part in parts_left(self.out):
+                part.unlink()
         return results
 
     def _trials(self) -> Sequence[Trial | Episode]:

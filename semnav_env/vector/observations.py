@@ -7,10 +7,12 @@ from typing import Any, Protocol
 
 import numpy as np
 from gymnasium import Space
+from gymnasium.spaces import Box
 from gymnasium.vector.utils import concatenate, create_empty_array
 
 from semnav_env.env import SemNavEnv
 from semnav_env.mind.observations import EntryObservation
+from semnav_env.mind.observations.checking import check_observation
 from semnav_env.vector.arguments import naming_robot
 from semnav_env.vector.team import Team
 
@@ -57,14 +59,21 @@ class EntryRows:
         return entries | self._observe_extra() if self._extra else entries
 
     def _observe_extra(self) -> dict[str, Any]:
-        each = []
+        return {name: self._entry(n, name) for n, name in enumerate(self._extra)}
+
+    def _entry(self, number: int, name: str) -> Any:
+        """The values of an extra entry; they are checked together, and one by one for a message."""
+        values, space = [], self._extra[name]
         for k, (env, kind) in enumerate(zip(self._envs, self._kinds, strict=True)):
             with naming_robot(k):
-                each.append(kind.observe_extra(env.moment))
-        return {
-            name: _stacked(space, [entries[name] for entries in each])
-            for name, space in self._extra.items()
-        }
+                values.append(kind.extra[number].observe(env.moment))
+        together = _within(space, values)
+        if together is not None:
+            return together
+        for k, value in enumerate(values):
+            with naming_robot(k):
+                check_observation(value, space, f"observation entry {name!r}")
+        return _stacked(space, values)
 
 
 class EachObservation:
@@ -86,6 +95,18 @@ class EachObservation:
             with naming_robot(k):
                 values.append(env.observe())
         return _stacked(self._space, values)
+
+
+def _within(space: Space[Any], values: Sequence[Any]) -> Any:
+    """Arrays of a box, stacked; None if they are of another kind or not all in it."""
+    if not isinstance(space, Box) or not all(
+        type(value) is np.ndarray and (value.shape, value.dtype) == (space.shape, space.dtype)
+        for value in values
+    ):
+        return None
+    together = np.stack(values)
+    inside = (together >= space.low) & (together <= space.high)  # NaN is neither
+    return together if inside.all() else None
 
 
 def _stacked(space: Space[Any], values: Sequence[Any]) -> Any:

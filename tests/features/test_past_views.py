@@ -19,7 +19,7 @@ from semnav_features.kernels.past_views import (
     VIEW_SPACING,
     VIEWS,
     look_back,
-    may_be_free,
+    mark_maybe_free,
 )
 from semnav_features.memory import SceneMemory
 from tests.support.remembering import ANGLES, Ends, beams_that_end_at, see
@@ -59,11 +59,20 @@ def test_the_quick_test_misses_no_free_place(seed: int) -> None:
         see(memory, ranges=rng.choice([0.0, 0.7, 2.0, 5.0, np.inf], 360), pose=tuple(pose))
     _, _, state, views = memory.arrays
     count = int(state["views"][0])
-    places = rng.uniform(-6.0, 6.0, (200, 2)).tolist()
-    free = [place for place in places if told(memory, *place) == FREE]
-    assert all(may_be_free(*place, count, views[0]) for place in free)
-    passed = sum(may_be_free(*place, count, views[0]) for place in places)
-    assert passed < len(places)
+    places, maybe = rng.uniform(-6.0, 6.0, (200, 2)), np.empty(200, np.bool_)
+    mark_maybe_free(places[:, 0].copy(), places[:, 1].copy(), count, views[0], maybe)
+    free = [told(memory, x, y) == FREE for x, y in places.tolist()]
+    assert maybe[free].all()
+    assert not maybe.all()
+
+
+def test_the_quick_test_passes_no_place_that_is_not_finite() -> None:
+    memory = SceneMemory()
+    see(memory, ranges=beams_in_a_circle(4.0))
+    _, _, state, views = memory.arrays
+    nowhere, maybe = np.array([np.nan, np.inf, -np.inf]), np.empty(3, np.bool_)
+    mark_maybe_free(nowhere, nowhere, int(state["views"][0]), views[0], maybe)
+    assert not maybe.any()
 
 
 def test_a_view_tells_nothing_where_no_beam_went() -> None:

@@ -98,6 +98,7 @@ def run_suite(
     extras: Extras = NO_EXTRAS,
     dynamics: Dynamics = NO_DYNAMICS,
     lidar: str | LidarSpec = "tim561",
+    skip: int = 0,
 ) -> Iterator[Result]:
     """The result of every trial with every seed, in their order.
 
@@ -111,17 +112,16 @@ def run_suite(
         extras: what else to do with each episode.
         dynamics: people, doors and furniture that move.
         lidar: a lidar or its name.
+        skip: number of the first results that are left out, because they are known.
 
     Raises:
         ValueError: there is no such agent, or with several workers one that other processes
             cannot import.
     """
     setup = SuiteSetup(agent, robot, extras, dynamics, lidar)
-    jobs = [
-        SuiteJob(trial, seed)
-        for trial in trials
-        for seed in ((trial.number,) if isinstance(trial, Episode) else seeds)
-    ]
+    jobs = suite_jobs(trials, seeds)[skip:]
+    if not jobs:
+        return
     if workers == 1:
         yield from SuiteRunner(setup).run(jobs)
         return
@@ -181,6 +181,15 @@ class SuiteJob:
             driven, extras = driven.as_infeasible(), replace(extras, recheck=False)
         told = episode.command, episode.number, extras
         return conclude(driven, *told, episode=episode.id, group=episode.group)
+
+
+def suite_jobs(trials: Sequence[Trial | Episode], seeds: Sequence[int] = ()) -> list[SuiteJob]:
+    """Every trial with every seed, and every episode, in the order in which they are driven."""
+    return [
+        SuiteJob(trial, seed)
+        for trial in trials
+        for seed in ((trial.number,) if isinstance(trial, Episode) else seeds)
+    ]
 
 
 class SuiteRunner:

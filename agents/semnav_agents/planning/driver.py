@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from semnav_agents.planning.cruise import CHANGING_COUNTS, fits, put_body, put_path
 from semnav_agents.planning.doorway import room_behind
 from semnav_agents.planning.follower import PathProgress, Steering, follow
 from semnav_agents.planning.free import points_around
@@ -17,6 +19,7 @@ from semnav_agents.planning.path import PlannedPath, joined
 from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
 from semnav_agents.planning.track import FollowerSettings, PathTrack
 from semnav_env.language.clauses import Speed
+from semnav_env.mind.observations.pace_entry import PACES
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import (
     ORIGIN,
@@ -39,6 +42,9 @@ REPLAN_SHARE = 0.3
 """Share of a partial path that is left when it is planned again; for long paths, one metre is left.
 Most of the path must have been driven: from the same place the same path would be found again."""
 
+NUDGED_LENGTH, CHECKED_LENGTH = 1.2, 2.5
+"""Length of the path ahead that is corrected, and that must be free, metres."""
+
 LOOKAHEAD = 4.0
 """Distance beyond which obstacles do not matter to the next metres of a path, metres."""
 
@@ -53,8 +59,8 @@ YIELD_DISTANCE, YIELD_SECONDS = 0.5, 1.2
 and seconds."""
 
 GATE_DETOUR = 6.0
-"""Length by which a path around barriers to a gate may exceed what `detour` allows, metres: the robot
-may have to turn in the hallway first. A longer one leads through what has not been seen."""
+"""Length by which a path around barriers to a gate may exceed what `detour` allows, metres: the
+robot may have to turn in the hallway first. A longer one leads through what has not been seen."""
 
 EVASION_LENGTH = 1.5
 """Length by which a path around what moves may exceed what `detour` allows, metres: the robot may
@@ -109,6 +115,7 @@ class Driver:
         self.path: PlannedPath | None = None
         self.plans = 0
         self._track: PathTrack | None = None
+        self._written: PathTrack | None = None
         self._target: DriveTarget | None = None
         self._progress = PathProgress()
         self._shift: Pose = ORIGIN
@@ -117,6 +124,31 @@ class Driver:
         self._refusals = 0
         self._heeds_barriers = False
         self._yielded = self._around = self._barred = self._held = self._backing = 0
+
+    def put(self, record: Any) -> None:
+        """Write what compiled code must know to drive on, see `cruise.CRUISE`."""
+        counts, track = record["counts"], self._track
+        counts["ready"] = track is not None and not self._braking and fits(track)
+        if not counts["ready"] or track is None or self._target is None:
+            return
+        for name in (*CHANGING_COUNTS, "heeds_barriers"):
+            counts[name] = getattr(self, f"_{name}")
+        counts["pace"] = PACES.index(self._pace)
+        counts["leg"], counts["sample"] = self._progress.leg, self._progress.sample
+        record["shift"] = self._shift
+        if track is not self._written:
+            self._written = track
+            put_path(record, track, self._target)
+            put_body(record, self.robot, self.check_every, self.tolerance)
+
+    def take(self, record: Any) -> None:
+        """Read what compiled code has changed."""
+        counts = record["counts"]
+        for name in CHANGING_COUNTS:
+            setattr(self, f"_{name}", int(counts[name]))
+        self._progress = PathProgress(int(counts["leg"]), int(counts["sample"]))
+        x, y, heading = record["shift"].tolist()
+        self._shift = x, y, heading
 
     def plan_at_once(self) -> None:
         """Plan to the next target without standing still first."""
@@ -366,12 +398,12 @@ class Driver:
         assert self.path is not None
         seen, margin = obstacles.near(pose, LOOKAHEAD), self.path.margin
         size = (self.robot.length, self.robot.width)
-        left, turn, _ = best_nudge(seen, self._ahead(pose, 1.2), *size, margin + 0.005)
+        left, turn, _ = best_nudge(seen, self._ahead(pose, NUDGED_LENGTH), *size, margin + 0.005)
         if left or turn:
             shift = compose((0.0, left, turn), relative(pose, self._shift))
             self._shift = compose(pose, shift)
-        planned = self.path.clearance[self._samples_ahead(2.5)]
-        now = path_clearances(seen, self._ahead(pose, 2.5), *size, margin)
+        planned = self.path.clearance[self._samples_ahead(CHECKED_LENGTH)]
+        now = path_clearances(seen, self._ahead(pose, CHECKED_LENGTH), *size, margin)
         return bool((now > np.minimum(planned, margin) - self.tolerance).all())
 
     def _samples_ahead(self, distance: float) -> slice:

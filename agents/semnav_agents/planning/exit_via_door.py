@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from semnav_agents.planning.planner import DriveTarget
 from semnav_env.approach import DoorSide, Surroundings, plan_approach
 from semnav_env.approach.poses import is_behind
 from semnav_env.robots import RobotSpec
-from semnav_features.frames import FloatArray, Pose, compose, relative
+from semnav_features.frames import ORIGIN, FloatArray, Point, Pose, compose, relative
 from semnav_features.scene import Door
 
 POSE_TOLERANCE, POSE_HEADING_TOLERANCE = 0.10, 0.15
@@ -60,6 +61,7 @@ class ExitViaDoor:
     _ways: Iterator[WayThrough] = field(default=iter(()), init=False)
     _way: WayThrough = field(default=(None,), init=False)
     _door: DoorSide | None = field(default=None, init=False)
+    _middle: Point = field(default=(math.inf, math.inf), init=False)
     _pause: int = field(default=0, init=False)
 
     def target(self, side: DoorSide) -> DriveTarget:
@@ -69,16 +71,28 @@ class ExitViaDoor:
             side: the door and the side from which it is passed, in any frame; a door within
                 `SAME_DOOR_DISTANCE` of the last one is the same, better seen.
         """
-        known = self._door
-        if known is None or math.dist(known.middle, side.middle) > SAME_DOOR_DISTANCE:
+        if not math.dist(self._middle, side.middle) <= SAME_DOOR_DISTANCE:
             self._ways, self._way, self._pause = iter(()), (None,), 0
-        self._door = side
+        self._door, self._middle = side, side.middle
         pose, last = self._way[0], len(self._way) == 1
         if pose is None:
             return target_behind(Door(side.right, side.left), _in_front(side))
         place, gate = compose(side.frame, pose), (side.right, side.left)
         tolerances = POSE_TOLERANCE, POSE_HEADING_TOLERANCE
         return DriveTarget(place, *tolerances, gate=gate if last else None)
+
+    def put(self, record: Any) -> None:
+        """Write what compiled code needs to know, see `cruise.CRUISE`."""
+        pose = self._way[0]
+        record["counts"]["knows_door"] = self._door is not None
+        record["counts"]["aims_at_pose"] = pose is not None
+        record["counts"]["tries_ways"] = self.alternatives
+        record["door"] = (*self._middle, *(pose or ORIGIN))
+
+    def take(self, record: Any) -> None:
+        """Read where compiled code saw the door last."""
+        x, y = record["door"][:2].tolist()
+        self._middle = x, y
 
     def reached(self) -> None:
         """Move on to the next pose of the way; after the last one, begin again."""

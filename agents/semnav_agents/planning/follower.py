@@ -67,14 +67,14 @@ def follow(track: PathTrack, progress: PathProgress, pose: Pose, velocity: Twist
         velocity: the centre's velocity now.
     """
     axle = compose(pose, (track.robot.axle, 0.0, 0.0))
-    leg, sample, forward, left, turn, off, done = _steer(
+    leg, sample, forward, left, turn, off, done = steer(
         track.arrays, track.limits, progress.leg, progress.sample, axle, velocity
     )
     return Steering(forward, left, turn, PathProgress(leg, sample), off, done)
 
 
 @kernel
-def _steer(
+def steer(
     track: TrackArrays, s: FollowerLimits, leg: int, sample: int, axle: Pose, velocity: Twist
 ) -> tuple[int, int, float, float, float, float, bool]:
     """See `follow`: leg and sample of the progress, the velocities, the deviation, and done."""

@@ -42,11 +42,11 @@ def safe_share(
     forward, left, yaw_rate = twist
     seconds = FORESIGHT + math.hypot(velocity[0], velocity[1]) / robot.max_acceleration / 2
     axle_twist = Move(forward, left - robot.axle * yaw_rate, yaw_rate)
-    return float(_free_share(points, axle_twist, seconds, robot.length, robot.width))
+    return float(free_share(points, axle_twist, seconds, robot.length, robot.width))
 
 
 @kernel
-def _free_share(
+def free_share(
     points: FloatArray, axle_twist: Move, seconds: float, length: float, width: float
 ) -> float:
     """See `safe_share`, with the velocity of the axle and the time for a share of 1."""

@@ -16,7 +16,7 @@ from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.past_views import (
     FREE,
     look_back,
-    may_be_free,
+    mark_maybe_free,
     note_view,
 )
 
@@ -49,18 +49,14 @@ def mark_moving(
         views: an entry of `PAST_VIEWS`, changed in place.
         moving: written where something moves; False before; shape (n,).
     """
+    maybe = _maybe_free(ranges, start, step, pose, used.views, views)
     first, length, last_x, last_y = -1, 0.0, 0.0, 0.0
-    c, s = math.cos(pose[2] + start), math.sin(pose[2] + start)  # of the beam, to some 1e-13
-    turn_c, turn_s = math.cos(step), math.sin(step)
     for i in range(len(ranges) + 1):
         is_free, x, y = False, 0.0, 0.0
-        if i < len(ranges) and 0.05 < ranges[i] < MAX_DISTANCE:
-            rough_x, rough_y = pose[0] + ranges[i] * c, pose[1] + ranges[i] * s
-            if may_be_free(rough_x, rough_y, used.views, views):
-                angle = pose[2] + start + i * step
-                x, y = pose[0] + ranges[i] * np.cos(angle), pose[1] + ranges[i] * np.sin(angle)
-                is_free = look_back(x, y, used.views, views) == FREE
-        c, s = turn_c * c - turn_s * s, turn_c * s + turn_s * c
+        if i < len(ranges) and maybe[i] and 0.05 < ranges[i] < MAX_DISTANCE:
+            angle = pose[2] + start + i * step
+            x, y = pose[0] + ranges[i] * np.cos(angle), pose[1] + ranges[i] * np.sin(angle)
+            is_free = look_back(x, y, used.views, views) == FREE
         if is_free:
             if first < 0:
                 first, length = i, 0.0
@@ -72,3 +68,20 @@ def mark_moving(
             first = -1
     note_view(ranges, start, step, pose, used, views)
     used.scans += 1
+
+
+@kernel
+def _maybe_free(
+    ranges: FloatArray, start: float, step: float, pose: Pose, count: int, views: Any
+) -> NDArray[np.bool_]:
+    """Which hits may lie in free places, see `mark_maybe_free`, shape (n,)."""
+    x, y = np.empty(len(ranges)), np.empty(len(ranges))
+    c, s = math.cos(pose[2] + start), math.sin(pose[2] + start)  # of the beam, to some 1e-13
+    turn_c, turn_s = math.cos(step), math.sin(step)
+    for i in range(len(ranges)):
+        near = ranges[i] if ranges[i] < MAX_DISTANCE else MAX_DISTANCE  # also for NaN
+        x[i], y[i] = pose[0] + near * c, pose[1] + near * s
+        c, s = turn_c * c - turn_s * s, turn_c * s + turn_s * c
+    maybe = np.empty(len(ranges), np.bool_)
+    mark_maybe_free(x, y, count, views, maybe)
+    return maybe

@@ -14,9 +14,11 @@ from semnav_agents.planning.free import points_around
 from semnav_agents.planning.obstacle_kernels import (
     CENTRE,
     OBSTACLE_STATE,
-    TABLE_SIDE,
+    TABLE_SHAPE,
     MemoryClock,
     MemoryLimits,
+    SelectionLimits,
+    box_around,
     remember,
     select,
 )
@@ -63,6 +65,11 @@ class MemorySettings:
         """What decides what is remembered, as kernels take it."""
         max_age = MemoryClock(float(self.scans), self.travel, self.turned)
         return MemoryLimits(self.radius, self.merge, self.window, self.through, max_age)
+
+    @cached_property
+    def selection(self) -> SelectionLimits:
+        """What decides which centres count, as kernels take it."""
+        return SelectionLimits(self.sure, self.share, self.blunt)
 
 
 MemoryArrays: TypeAlias = tuple[np.ndarray, np.ndarray, NDArray[np.int32]]
@@ -138,8 +145,10 @@ class ObstacleMemory:
         return points_around(pose, self._select(pose[0], pose[1], reach), reach)
 
     def _select(self, x: float, y: float, reach: float) -> FloatArray:
-        s, centres = self.settings, self._centres[0, : self._state["count"][0]]
-        chosen: FloatArray = select(centres, self._table, x, y, reach, s.sure, s.share, s.blunt)
+        centres = self._centres[0, : self._state["count"][0]]
+        chosen: FloatArray = select(
+            centres, self._table, box_around(x, y, reach), self.settings.selection
+        )
         return chosen
 
 
@@ -148,7 +157,7 @@ def memory_arrays(count: int, settings: MemorySettings) -> MemoryArrays:
     return (
         np.zeros(count, OBSTACLE_STATE),
         np.zeros((count, settings.capacity), CENTRE),
-        np.full((TABLE_SIDE, TABLE_SIDE), -1, np.int32),
+        np.full(TABLE_SHAPE, -1, np.int32),
     )
 
 

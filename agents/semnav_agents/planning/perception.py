@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.planning.moving import mark_moving
-from semnav_agents.planning.obstacle_kernels import MemoryLimits, remember
+from semnav_agents.planning.obstacle_kernels import MemoryLimits, SelectionLimits, remember
 from semnav_agents.planning.obstacles import MemorySettings, ObstacleMemory, memory_arrays
 from semnav_features.frames import FloatArray, Pose, compose, points_to_parent
 from semnav_features.kernels.compiling import kernel
@@ -45,6 +45,7 @@ class Perception:
         settings = MemorySettings()
         self._perceivers = np.zeros(robots, PERCEIVER)
         self._memory, self._limits = memory_arrays(robots, settings), settings.limits
+        self._selection = settings.selection
         state, centres, table = self._memory
         self.obstacles = [
             ObstacleMemory(settings, (state[k : k + 1], centres[k : k + 1], table))
@@ -84,6 +85,17 @@ class Perception:
         """
         told = self._perceivers, self._directions, *self._memory, self._limits
         perceive(odometry, scans, driven, *told, self._moving)
+
+    @property
+    def memory(self) -> tuple[Any, Any, Any, SelectionLimits]:
+        """States, centres, table and what counts of them, as `obstacle_kernels.select` takes it."""
+        states, centres, table = self._memory
+        return states, centres, table, self._selection
+
+    @property
+    def any_moving(self) -> NDArray[np.bool_]:
+        """Whether something moves around each robot, shape (n,)."""
+        return np.asarray(self._moving.any(axis=1), np.bool_)
 
     def moving(self, index: int, pose: Pose, scan: NDArray[np.float32]) -> FloatArray:
         """Where something moves around a robot at a pose, in the frame of it, shape (m, 2)."""

@@ -17,6 +17,7 @@ from semnav_env.language.clauses import Speed
 from semnav_env.robots import RobotSpec
 from semnav_features.checked_fields import Bounds, check_fields
 from semnav_features.frames import FloatArray, distances_along
+from semnav_features.kernels.compiling import kernel
 
 SLOW_SHARE = 0.5
 """Share of the usual largest speeds at which a robot drives slowly."""
@@ -178,10 +179,7 @@ class PathTrack:
                 span = slice(leg.first, leg.last + 1)
                 limit[span] = np.minimum(limit[span], s.reverse)
             limit[leg.last] = 0.0
-        braking = s.braking * self.robot.max_acceleration
-        for k in range(len(limit) - 2, -1, -1):  # backwards: brake in time for what follows
-            step = self.distance[k + 1] - self.distance[k]
-            limit[k] = min(limit[k], math.sqrt(limit[k + 1] ** 2 + 2.0 * braking * step))
+        _brake_in_time(limit, self.distance, s.braking * self.robot.max_acceleration)
         return limit
 
     @cached_property
@@ -215,11 +213,31 @@ class PathTrack:
     @property
     def _kinds(self) -> NDArray[np.int64]:
         """Kind of motion of each step, small turns counted as what they lie beside."""
-        kinds, moves = self.path.kinds.copy(), self.path.move_of
-        for k in range(len(self.path.moves)):
-            at = np.flatnonzero(moves == k)
-            if kinds[at[0]] == TURN and abs(self.path.moves[k, 2]) < self.settings.small_turn:
-                neighbour = at[0] - 1 if at[0] > 0 else at[-1] + 1
-                if neighbour < len(kinds):
-                    kinds[at] = kinds[neighbour]
+        kinds = self.path.kinds.copy()
+        _join_small_turns(kinds, self.path.move_of, self.path.moves, self.settings.small_turn)
         return kinds
+
+
+@kernel
+def _brake_in_time(limit: FloatArray, distance: FloatArray, braking: float) -> None:
+    """Lower the speed at each sample, m/s, so that braking suffices for the samples behind it."""
+    for k in range(len(limit) - 2, -1, -1):
+        step = distance[k + 1] - distance[k]
+        limit[k] = min(limit[k], math.sqrt(limit[k + 1] ** 2 + 2.0 * braking * step))
+
+
+@kernel
+def _join_small_turns(
+    kinds: NDArray[np.int64], move_of: NDArray[np.int64], moves: FloatArray, small: float
+) -> None:
+    """Count the steps of turns below `small` radians as what lies before them, or else behind."""
+    first = 0
+    while first < len(kinds):
+        move, behind = move_of[first], first
+        while behind < len(kinds) and move_of[behind] == move:
+            behind += 1
+        if kinds[first] == TURN and abs(moves[move, 2]) < small:
+            neighbour = first - 1 if first > 0 else behind
+            if neighbour < len(kinds):
+                kinds[first:behind] = kinds[neighbour]
+        first = behind

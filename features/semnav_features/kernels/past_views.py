@@ -11,6 +11,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.kernels.compiling import kernel
@@ -124,19 +125,34 @@ def look_back(x: float, y: float, count: int, views: Any) -> int:
 
 
 @kernel
-def may_be_free(x: float, y: float, count: int, views: Any) -> bool:
-    """Whether `look_back` may say `FREE`: a quick test, which needs the place to 1 micrometre only.
+def mark_maybe_free(
+    x: FloatArray, y: FloatArray, count: int, views: Any, maybe: NDArray[np.bool_]
+) -> None:
+    """Write of which places `look_back` may say `FREE`: a quick test of many at once.
 
     The sector at which it looks is one of those that the views must pass: an angle to a thirtieth
     of a sector names the sector of the place, or one beside it.
+
+    Args:
+        x: of the places in the memory's frame, to 1 micrometre, metres, shape (n,).
+        y: the same.
+        count: of the views that were kept so far.
+        views: `PAST_VIEWS`.
+        maybe: written, shape (n,).
     """
+    maybe[:] = False
+    squared, sectors = np.empty(len(maybe)), np.empty(len(maybe), np.int32)
     for v in range(min(count, VIEWS)):
-        dx, dy = x - views.places[v, 0], y - views.places[v, 1]
-        sector = math.floor(rough_angle(dx, dy) / SECTOR_ANGLE)
-        least = views.ranges[v, sector % SECTORS] - (FREE_DEPTH - 1e-5)
-        if least > 0.0 and least * least > dx * dx + dy * dy:
-            return True
-    return False
+        from_x, from_y, ranges = views.places[v, 0], views.places[v, 1], views.ranges[v]
+        for i in range(len(maybe)):  # apart from the look-up, so that it takes many at once
+            dx, dy = x[i] - from_x, y[i] - from_y
+            sector: Any = np.int32(rough_angle(dx, dy) * (1.0 / SECTOR_ANGLE) + SECTORS) - SECTORS
+            sector = sector + SECTORS if sector < 0 else sector
+            sectors[i] = min(max(sector, 0), SECTORS - 1)  # also where x is not finite
+            squared[i] = dx * dx + dy * dy
+        for i in range(len(maybe)):
+            least = ranges[sectors[i]] - (FREE_DEPTH - 1e-5)
+            maybe[i] |= (least > 0.0) & (least * least > squared[i])
 
 
 @kernel

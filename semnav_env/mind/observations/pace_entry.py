@@ -11,7 +11,8 @@ from semnav_env.mind.observations.observer import Moment
 from semnav_env.robots import RobotSpec
 from semnav_features.lidar_spec import LidarSpec
 
-_PACES = (None, Speed.SLOW, Speed.FAST)
+PACES = (None, Speed.SLOW, Speed.FAST)
+"""The paces, by the number that stands for each in the observation."""
 
 
 class PaceEntry:
@@ -25,13 +26,13 @@ class PaceEntry:
 
     def space(self, robot: RobotSpec, lidar: LidarSpec) -> Box[np.float32]:
         """The space of the entry."""
-        return Box(0.0, len(_PACES) - 1.0, (1,), np.float32)
+        return Box(0.0, len(PACES) - 1.0, (1,), np.float32)
 
     def observe(self, moment: Moment) -> NDArray[np.float32]:
         """The pace now."""
-        return np.array([_PACES.index(moment.tracker.follower.pace)], np.float32)
+        return np.array([PACES.index(moment.tracker.follower.pace)], np.float32)
 
 
 def read_pace(observation: dict[str, NDArray[np.float32]]) -> Speed | None:
     """The pace of an observation; None for the usual one, and without the entry."""
-    return _PACES[int(observation["pace"][0])] if "pace" in observation else None
+    return PACES[int(observation["pace"][0])] if "pace" in observation else None
