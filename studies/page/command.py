@@ -77,20 +77,20 @@ class Arguments:
 
         with connect(f"{address}/session", max_size=None) as socket:
             socket.send(json.dumps(SCENE))
-            start = _next(socket, "frame")["pose"]
+            start = next_message(socket, "frame")["pose"]
             for _ in range(self.runs):
                 asked = time.perf_counter()
                 socket.send(json.dumps(COMMAND))
-                _next(socket, "understood")
-                while _next(socket, "frame")["pose"] == start:
+                next_message(socket, "understood")
+                while next_message(socket, "frame")["pose"] == start:
                     pass
                 moved = time.perf_counter()
                 pictures = 0
                 while time.perf_counter() < moved + self.seconds:
-                    pictures += _next(socket, "frame", "ended")["type"] == "frame"
+                    pictures += next_message(socket, "frame", "ended")["type"] == "frame"
                 found.append((moved - asked, pictures / (time.perf_counter() - moved)))
                 socket.send(json.dumps({"type": "playback", "action": "stop"}))
-                _next(socket, "ended")
+                next_message(socket, "ended")
 
 
 @contextmanager
@@ -120,7 +120,7 @@ def processor_seconds(process: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def _next(socket: Any, *kinds: str) -> dict[str, Any]:
+def next_message(socket: Any, *kinds: str) -> dict[str, Any]:
     """The next message of one of these types."""
     while True:
         message: dict[str, Any] = json.loads(socket.recv(timeout=60))
