@@ -16,6 +16,7 @@ from tyro.conf import Positional, arg
 
 from semnav_agents.evaluation import (
     Extras,
+    LeftOut,
     Result,
     Summary,
     Trial,
@@ -116,15 +117,24 @@ class Arguments:
         how = workers, extras, self.dynamics, self.lidar
         agent = self.agent or usual_agent(trials)
         who = self._who(agent)
-        driven = without_excess(run_suite(trials, agent, self.robot, seeds, *how))
-        results = self._drive(driven, total, who)
-        groups = list(dict.fromkeys(trial.group for trial in trials))
+        left_out: list[LeftOut] = []
+        driven = without_excess(run_suite(trials, agent, self.robot, seeds, *how, left_out))
+        results = self._drive(driven, total, who, left_out)
+        if not results:
+            raise ValueError(f"no episode could begin; the first: {left_out[0].why}")
+        groups = list(dict.fromkeys(result.group for result in results))
         if isinstance(trials[0], Episode):
             groups.sort()
-        summaries, everything = [_summary(g, results) for g in groups], summarise("all", results)
+        summaries = [_summary(group, results) for group in groups]
+        everything = summarise("all", results, len(left_out))
         if self.html is not None:
             save_report(self.html, who, summaries, everything, results)
         self._show(summaries, everything, results, who)
+        if not self.json:
+            for each in left_out:
+                print(
+                    f'left out: {each.episode or f"seed {each.seed}"} "{each.command}": {each.why}'
+                )
         for written in (self.out, self.html):
             if written is not None and not self.json:
                 print(f"wrote {written}")
@@ -152,16 +162,26 @@ class Arguments:
             who |= {"lidar": self.lidar}
         return who | provenance().row()
 
-    def _drive(self, episodes: Iterator[Result], total: int, who: dict[str, Any]) -> list[Result]:
+    def _drive(
+        self,
+        episodes: Iterator[Result],
+        total: int,
+        who: dict[str, Any],
+        left_out: list[LeftOut],
+    ) -> list[Result]:
         """All results; each is written at once, so that an interruption loses none."""
         results: list[Result] = []
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for result in tracked(
-                episodes, lambda n: f"{n} episodes", lambda: len(results) / total
+                episodes,
+                lambda n: f"{n} episodes",
+                lambda: (len(results) + len(left_out)) / total,
             ):
                 results.append(result)
                 if out:
                     out.write(who | result.row())
+            for each in left_out if out else ():
+                out.write(who | each.row())
         return results
 
     def _trials(self) -> Sequence[Trial | Episode]:
