@@ -180,8 +180,9 @@ class Arguments:
                 results.append(result)
                 if out:
                     out.write(who | result.row())
-            for each in left_out if out else ():
-                out.write(who | each.row())
+            if out:
+                for each in left_out:
+                    out.write(who | each.row())
         return results
 
     def _trials(self) -> Sequence[Trial | Episode]:

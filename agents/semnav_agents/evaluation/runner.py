@@ -9,7 +9,7 @@ import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
-from itertools import chain, groupby
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -146,7 +146,8 @@ def _outcomes(
     with for_this_process_alone():
         pool = processes.Pool(min(workers, len(shares)), _start_worker, (_pickled(setup),))
     with pool:
-        yield from chain.from_iterable(pool.imap(_work, shares))
+        for some in pool.imap(_work, shares):
+            yield from some
 
 
 @dataclass(frozen=True)

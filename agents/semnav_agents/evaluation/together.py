@@ -64,7 +64,9 @@ def drive_together(
         yield from _begin(envs, team, k, waiting, running)
     for k in running.keys() ^ set(range(envs.num_envs)):
         _stand_in(envs, k, running)
-    observations = envs.observe() if running else None
+    if not running:
+        return
+    observations = envs.observe()
     while running:
         actions = team.act(observations, running)
         observations, _, terminated, truncated, _ = envs.step(actions)
