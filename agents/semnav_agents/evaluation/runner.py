@@ -381,7 +381,7 @@ def _start_worker(pickled: bytes) -> None:
     _Worker.pickled = pickled
 
 
-def _work(jobs: list[SuiteJob]) -> list[Result | LeftOut]:
+def _work(jobs: Sequence[SuiteJob]) -> list[Result | LeftOut]:
     """Run some jobs; the agent is unpickled here, where an error reaches the caller."""
     if _Worker.runner is None:
         try:
