@@ -19,6 +19,9 @@ from typing import Any
 SCENE = {"type": "scene", "plan": "office_cross", "pose": [1.3, 9.1, 0.0]}
 COMMAND = {"type": "command", "text": "turn left at the intersection, then go down the hallway"}
 
+PATIENCE = 300.0
+"""How long a busy machine may take for a message, seconds."""
+
 HEADINGS = (
     "| clients | to first motion, ms: median, most | pictures a second: mean | least "
     "| of a core | server, MB |"
@@ -123,7 +126,7 @@ def processor_seconds(process: int) -> float:
 def next_message(socket: Any, *kinds: str) -> dict[str, Any]:
     """The next message of one of these types."""
     while True:
-        message: dict[str, Any] = json.loads(socket.recv(timeout=60))
+        message: dict[str, Any] = json.loads(socket.recv(timeout=PATIENCE))
         if message["type"] in kinds:
             return message
         if message["type"] in ("error", "refused"):

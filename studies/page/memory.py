@@ -14,6 +14,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from studies.page.command import (
     COMMAND,
+    PATIENCE,
     SCENE,
     next_message,
     processor_seconds,
@@ -91,13 +92,13 @@ class RepeatingClient:
         """Drive until a time of `time.monotonic`; yields the number of pictures after each one."""
         scenes = cycle(SCENES)
         while time.monotonic() < end:
-            with connect(f"{self.address}/session", max_size=None) as socket:
+            with connect(f"{self.address}/session", max_size=None, ping_interval=None) as socket:
                 socket.send(json.dumps({"type": "speed", "factor": self.speed}))
                 for _ in range(FILM_PERIOD):
                     yield from self._one_run(socket, next(scenes), end)
                 for what in ("film", "episode", "plan"):
                     socket.send(json.dumps({"type": "keep", "what": what}))
-                    while isinstance(socket.recv(timeout=120), str):
+                    while isinstance(socket.recv(timeout=PATIENCE), str):
                         pass
 
     def _one_run(
