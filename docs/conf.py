@@ -14,7 +14,7 @@ author = "The semnav-env developers"
 copyright = author
 release = version = _version("semnav-env")
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_design"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 myst_enable_extensions = ["colon_fence", "dollarmath", "deflist"]
 myst_heading_anchors = 3
 source_suffix = {".md": "markdown"}
@@ -29,7 +29,7 @@ default_role = "code"  # `names` of docstrings are code
 html_theme = "furo"
 html_title = "semnav-env"
 html_static_path = ["_static"]
-html_css_files = ["cards.css"]
+html_css_files = ["pictures.css"]
 
 
 def _as_rest(_app: Any, _what: str, _name: str, _it: Any, _options: Any, lines: list[str]) -> None:

@@ -149,6 +149,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
     tracker: BeliefTracker
     judge: Judge
     instruction: str
+    spoken: str | None
     tokens: NDArray[np.int64]
     loop: RobotLoop
 
@@ -207,6 +208,7 @@ class SemNavEnv(GymnasiumEnv[Any]):
         sensed = self.simulator.reset(mission.start, self.np_random)
         info = mission.info | setup.info | request.info
         self._begin(mission, info["instruction"])
+        self.spoken = request.language
         self.loop.look()
         if self.payload is not None:
             self.payload.begin(self.floor_plan, self.setup, mission.start, self.np_random)

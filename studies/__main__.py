@@ -30,6 +30,7 @@ STUDIES = CommandTable(
         "matching": ("studies.matching.command", "how exactly scans are matched"),
         "offices": ("studies.offices", "check generated offices, and time them"),
         "page": ("studies.page.command", "how soon the page of `semnav serve` moves its robot"),
+        "page_memory": ("studies.page.memory", "memory of `semnav serve` over an hour"),
         "places": ("studies.places.command", "corridors told from other places"),
         "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
         "latency": ("studies.latency.command", "how soon the node of a robot answers a scan"),

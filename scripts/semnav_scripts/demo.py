@@ -22,6 +22,7 @@ from semnav_env.world.dynamics.social import for_json
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_scripts.arguments import parse_pose
 from semnav_scripts.asking import asking
+from semnav_scripts.display import needing_display
 from semnav_scripts.outputs import check_file
 from semnav_scripts.progress import share_driven, tracked, work_bar
 
@@ -115,10 +116,11 @@ class Arguments:
             lambda _: f"{env.seconds:.0f} s",
             lambda: share_driven(env.judge),
         )
-        for step in driven:
-            info = step.info
-            if self._filmed:
-                film.note("is_success" in info)
+        with needing_display("--save FILE writes a film without one"):
+            for step in driven:
+                info = step.info
+                if self._filmed:
+                    film.note("is_success" in info)
         judge = env.judge
         if told.infeasible:
             info["is_success"] = recognised_impossible(judge, info["impossible"])

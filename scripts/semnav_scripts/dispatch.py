@@ -166,7 +166,12 @@ def _first_line(error: Exception) -> str:
         return f"cannot {what}{where}: {error.strerror}"
     if isinstance(error, ModuleNotFoundError):
         package, _, inner = str(error.name).partition(".")
-        if not (inner and package.startswith("semnav_")):
+        if package.startswith("semnav_") and not inner:
+            return (
+                f"{package} is missing: the checkout has new packages since it was installed; "
+                "`semnav doctor` says what to type"
+            )
+        if not package.startswith("semnav_"):
             return f"{error.name} is not installed; `semnav doctor` says what to install"
     lines = str(error).strip().splitlines()
     return lines[0] if lines else type(error).__name__

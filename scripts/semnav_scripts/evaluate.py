@@ -17,6 +17,7 @@ from tyro.conf import Positional, arg
 
 from semnav_agents.evaluation import (
     Extras,
+    LeftOut,
     Result,
     Summary,
     Trial,
@@ -122,16 +123,24 @@ class Arguments:
         how = workers, extras, self.dynamics, self.lidar
         agent = self.agent or usual_agent(trials)
         who = self._who(agent)
-        known = self._known(jobs, who)
-        suite_run = run_suite(trials, agent, self.robot, seeds, *how, skip=len(known))
-        results = self._drive(without_excess(chain(known, suite_run)), total, who)
-        groups = list(dict.fromkeys(trial.group for trial in trials))
+        known, left_out = self._known(jobs, who), list[LeftOut]()
+        suite_run = run_suite(trials, agent, self.robot, seeds, *how, left_out, len(known))
+        results = self._drive(without_excess(chain(known, suite_run)), total, who, left_out)
+        if not results:
+            raise ValueError(f"no episode could begin; the first: {left_out[0].why}")
+        groups = list(dict.fromkeys(result.group for result in results))
         if isinstance(trials[0], Episode):
             groups.sort()
-        summaries, everything = [_summary(g, results) for g in groups], summarise("all", results)
+        summaries = [_summary(group, results) for group in groups]
+        everything = summarise("all", results, len(left_out))
         if self.html is not None:
             save_report(self.html, who, summaries, everything, results)
         self._show(summaries, everything, results, who)
+        if not self.json:
+            for each in left_out:
+                print(
+                    f'left out: {each.episode or f"seed {each.seed}"} "{each.command}": {each.why}'
+                )
         for written in (self.out, self.html):
             if written is not None and not self.json:
                 print(f"wrote {written}")
@@ -146,14 +155,23 @@ class Arguments:
             check_suffix(self.html, (".html",))
         if self.resume and self.out is None:
             raise ValueError("--resume goes on with the file of --out; give it")
-        again = {"recheck": self.recheck, "pictures": self.pictures, "films": self.films}
-        for name, value in (again | {"html": self.html}).items():
-            if self.resume and value:
-                raise ValueError(f"--{name} needs all drives; leave out --resume")
+        if self.resume:
+            self._check_resumable()
         check_folder(self.pictures, "--pictures")
         check_folder(self.films, "--films")
         if self.films is not None:
             load_pygame()  # says at once where it is missing
+
+    def _check_resumable(self) -> None:
+        """Refuse what rows of an earlier run do not hold."""
+        drawn = (("recheck", self.recheck), ("pictures", self.pictures), ("films", self.films))
+        for name, value in (*drawn, ("html", self.html)):
+            if value:
+                raise ValueError(f"--{name} needs all drives; leave out --resume")
+        if self.dynamics.changing_doors or self.dynamics.moved_furniture:
+            raise ValueError(
+                "--changing-doors and --moved-furniture leave episodes out; leave out --resume"
+            )
 
     def _who(self, agent: str) -> dict[str, Any]:
         """Fields of every row: agent, split, body, version, rules, and what is not as usual."""
@@ -171,16 +189,27 @@ class Arguments:
             return []
         return results_so_far(rows_so_far(self.out), jobs, who, self.out)
 
-    def _drive(self, episodes: Iterator[Result], total: int, who: dict[str, Any]) -> list[Result]:
+    def _drive(
+        self,
+        episodes: Iterator[Result],
+        total: int,
+        who: dict[str, Any],
+        left_out: list[LeftOut],
+    ) -> list[Result]:
         """All results; each is written at once, so that an interruption loses none."""
         results: list[Result] = []
         with JsonLines(self.out) if self.out else nullcontext() as out:
             for result in tracked(
-                episodes, lambda n: f"{n} episodes", lambda: len(results) / total
+                episodes,
+                lambda n: f"{n} episodes",
+                lambda: (len(results) + len(left_out)) / total,
             ):
                 results.append(result)
                 if out:
                     out.write(who | result.row())
+            if out:
+                for each in left_out:
+                    out.write(who | each.row())
         if self.resume and self.out is not None:
             for part in parts_left(self.out):
                 part.unlink()

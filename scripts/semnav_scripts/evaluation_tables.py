@@ -37,6 +37,13 @@ def headings(who: Mapping[str, Any], everything: Summary) -> Iterator[str]:
     yield f"agent {who['agent']}{seed}, robot {who['robot']}, {who['split']}, {count}"
     commit = f", commit {_short(who['commit'])}" if who["commit"] else ""
     yield f"semnav-env {who['version']}{commit}, rules {who['rules']}"
+    if everything.left_out:
+        which = "episode was" if everything.left_out == 1 else "episodes were"
+        changed = "its command is" if everything.left_out == 1 else "their commands are"
+        yield (
+            f"{everything.left_out} more {which} left out: {changed} void with the doors and "
+            "furniture as they stand there"
+        )
     for name in INTERVAL_MEASURES:
         mean, (low, high) = everything.means[name], everything.intervals[name]
         interval = f"{low:.3f} to {high:.3f}"

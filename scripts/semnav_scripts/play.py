@@ -20,6 +20,7 @@ from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_scripts.arguments import OptionalText, parse_pose
 from semnav_scripts.asking import asking
+from semnav_scripts.display import needing_display
 from semnav_scripts.outputs import check_folder
 from semnav_scripts.playing.game import Game, described
 from semnav_scripts.playing.kept_runs import EPISODES, check_new, keep_runs
@@ -97,12 +98,8 @@ class Arguments:
         load_pygame()
 
     def _game(self, drive: PlayedDrive) -> Game:
-        try:
+        with needing_display("`semnav serve` needs a browser only"):
             return Game(drive, self.language)
-        except RuntimeError as error:
-            raise ValueError(
-                f"a window needs a display ({error.__cause__}); `semnav serve` needs a browser only"
-            ) from error
 
     def _environment(self) -> SemNavEnv:
         return SemNavEnv(

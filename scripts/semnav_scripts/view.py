@@ -20,6 +20,7 @@ from semnav_env.judge.episodes import find_episode, load_episodes
 from semnav_env.rendering.film import STEPS_PER_FRAME, Film
 from semnav_env.rendering.video import check_suffix
 from semnav_features.validation import require
+from semnav_scripts.display import needing_display
 from semnav_scripts.outputs import check_file
 from semnav_scripts.progress import WorkBar, share_driven, work_bar
 
@@ -117,7 +118,8 @@ class Arguments:
         film = Film(env, max(1, round(STEPS_PER_FRAME * self.speed)), MAX_FRAMES)
         with work_bar("driving") as bar:
             watch = _watch(env, None if shows else film, bar)
-            driven = drive(env, agent, job.seed, job.options(env), watch)
+            with needing_display("--out FILE writes a film without one"):
+                driven = drive(env, agent, job.seed, job.options(env), watch)
             if self.out is not None:
                 bar.show(f"writing {self.out.name}", None)
                 film.save(self.out, self.width / FULL_WIDTH)

@@ -32,6 +32,7 @@ class Frame:
         trail: past positions, oldest first, shape (k, 2).
         route: the true route, shape (m, 2); None hides it.
         command: the text of each clause.
+        language: code of the language of `command`, in which the picture is labelled.
         active_clause: index into `command`; those before are done or
             skipped. len(command): all are done.
         status: lines of text below the command, such as "t = 12.4 s".
@@ -63,6 +64,7 @@ class Frame:
     trail: FloatArray | None = None
     route: FloatArray | None = None
     command: tuple[str, ...] = ()
+    language: str = "en"
     active_clause: int = 0
     skipped: frozenset[int] = frozenset()
     status: tuple[str, ...] = ()

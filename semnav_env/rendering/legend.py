@@ -9,6 +9,7 @@ from semnav_env.rendering import marks, palette
 from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.canvas import Canvas
 from semnav_env.rendering.frame import Frame
+from semnav_env.rendering.picture_words import label
 from semnav_env.world.maps.floor_plan import Material
 from semnav_features.frames import Point
 from semnav_features.scene import CornerKind
@@ -36,7 +37,8 @@ def draw_legend(canvas: Canvas, left: float, top: float, frame: Frame) -> None:
     for index, (name, draw) in enumerate(entries):
         x, y = left + COLUMN_WIDTH * (index // rows), top + ROW_HEIGHT * (index % rows)
         draw(canvas, (x + ICON_HALF_WIDTH, y))
-        canvas.text((x + 2 * ICON_HALF_WIDTH + 7.0, y), name, palette.INK, 11.0)
+        place = x + 2 * ICON_HALF_WIDTH + 7.0, y
+        canvas.text(place, label(name, frame.language), palette.INK, 11.0)
 
 
 def legend_entries(frame: Frame) -> tuple[Entry, ...]:

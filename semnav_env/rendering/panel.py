@@ -11,6 +11,7 @@ from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.canvas import Canvas
 from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.legend import LEGEND_HEIGHT, draw_legend
+from semnav_env.rendering.picture_words import label
 from semnav_env.rendering.text import wrap
 
 PANEL_WIDTH = 284.0
@@ -71,7 +72,7 @@ def draw_panel(canvas: Canvas, panel: Viewport, frame: Frame) -> None:
     with canvas.within(panel):
         _draw_title(column, frame)
         legend_top = panel.height - LEGEND_HEIGHT
-        column.heading(legend_top, "LEGEND")
+        column.heading(legend_top, label("LEGEND", frame.language))
         draw_legend(canvas, column.left, legend_top + 22.0, frame)
         status_top = _draw_status(column, legend_top - 12.0, frame)
         _draw_command(column, 84.0, status_top - 12.0, frame)
@@ -81,7 +82,8 @@ def _draw_title(column: Column, frame: Frame) -> None:
     title = frame.floor_plan.name.replace("_", " ")
     (line,) = column.wrapped(title, 16.0, bold=True, most=1)
     column.canvas.text((column.left, 29.0), line, palette.INK, 16.0, bold=True)
-    column.canvas.text((column.left, 51.0), frame.robot.name, palette.MUTED, 12.5)
+    name = label(frame.robot.name, frame.language)
+    column.canvas.text((column.left, 51.0), name, palette.MUTED, 12.5)
 
 
 def _draw_status(column: Column, bottom: float, frame: Frame) -> float:
@@ -94,7 +96,8 @@ def _draw_status(column: Column, bottom: float, frame: Frame) -> float:
         chip = Viewport(column.left, y, column.width, 24.0)
         column.canvas.box(chip, palette.CONTACT, 6.0)
         centre = column.left + column.width / 2, y + 12.0
-        column.canvas.text(centre, "contact", palette.WHITE, 12.5, bold=True, centred=True)
+        said = label("contact", frame.language)
+        column.canvas.text(centre, said, palette.WHITE, 12.5, bold=True, centred=True)
         y += 34.0
     for line in lines:
         column.canvas.text((column.left, y + 9.0), line, palette.INK, 12.5)
@@ -103,20 +106,22 @@ def _draw_status(column: Column, bottom: float, frame: Frame) -> float:
 
 
 def _draw_command(column: Column, top: float, bottom: float, frame: Frame) -> None:
-    column.heading(top, "COMMAND")
+    column.heading(top, label("COMMAND", frame.language))
     inner = column.indented(CLAUSE_INDENT)
     entries = [_entry(inner, frame, index) for index in _nearby(frame)]
     shown = _fitting(entries, frame.active_clause, bottom - top - 52.0)
     y = top + 18.0
     if shown and shown[0].index > 0:
-        column.canvas.text((inner.left, y + 6.0), f"{shown[0].index} before", palette.MUTED, 11.0)
+        before = f"{shown[0].index} {label('before', frame.language)}"
+        column.canvas.text((inner.left, y + 6.0), before, palette.MUTED, 11.0)
     y += 16.0 if shown and shown[0].index > 0 else 0.0
     for entry in shown:
         _draw_entry(column, inner, y, entry, frame)
         y += entry.height
     after = len(frame.command) - 1 - shown[-1].index if shown else 0
     if after > 0:
-        column.canvas.text((inner.left, y + 8.0), f"{after} more", palette.MUTED, 11.0)
+        more = f"{after} {label('more', frame.language)}"
+        column.canvas.text((inner.left, y + 8.0), more, palette.MUTED, 11.0)
 
 
 def _nearby(frame: Frame) -> range:
@@ -129,7 +134,8 @@ def _nearby(frame: Frame) -> range:
 def _entry(inner: Column, frame: Frame, index: int) -> PanelEntry:
     active = index == frame.active_clause
     notes: tuple[str, ...] = ()
-    if active and frame.goal is not None and frame.goal.because:
+    is_english = frame.language == "en"  # as the reasons are
+    if active and is_english and frame.goal is not None and frame.goal.because:
         notes = inner.wrapped(frame.goal.because, 11.0, most=4)
     return PanelEntry(index, inner.wrapped(frame.command[index], 13.5, active), notes)
 

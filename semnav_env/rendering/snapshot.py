@@ -11,6 +11,7 @@ import numpy as np
 from semnav_env.judge import Judge, Verdict
 from semnav_env.judge.payload import Payload, PayloadMarks
 from semnav_env.language.command import reference_of
+from semnav_env.language.language import Language
 from semnav_env.language.references import DoorReference
 from semnav_env.mind.belief import Belief, BeliefTracker
 from semnav_env.mind.grounding.counted_doors import doors_along
@@ -20,6 +21,7 @@ from semnav_env.mind.observations import ObservationType
 from semnav_env.mind.observations.cloud_entry import rig_of
 from semnav_env.rendering.depth_layer import cloud_on_the_map, jambs_on_the_map
 from semnav_env.rendering.frame import Frame
+from semnav_env.rendering.picture_words import label, spoken_language
 from semnav_env.robots import RobotSpec
 from semnav_env.world.physics import World
 from semnav_env.world.simulator import Simulator
@@ -44,6 +46,8 @@ class RenderedEnvironment(Protocol):
     payload: Payload | None
     robot: RobotSpec
     world: World
+    instruction: str
+    spoken: str | None
 
     @property
     def belief(self) -> Belief:
@@ -66,6 +70,7 @@ def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
     rig = rig_of(env.observation_type)
     cloud = PointCloud() if rig is None else env.simulator.see(rig)
     marks = NO_MARKS if env.payload is None else env.payload.marks()
+    language = spoken_language(env.instruction, env.spoken)
     return Frame(
         floor_plan=env.world.still,
         robot=env.robot,
@@ -78,10 +83,11 @@ def snapshot(env: RenderedEnvironment, trail: Sequence[Point]) -> Frame:
         goal=_moved(tracker.follower.goal, odometry_frame),
         trail=np.array(trail),
         route=judge.mission.route,
-        command=tuple(str(clause) for clause in judge.mission.command.clauses),
+        command=tuple(clause.say(language) for clause in judge.mission.command.clauses),
+        language=language.code,
         active_clause=judge.follower.active,
         skipped=judge.follower.skipped,
-        status=(*_status(env.seconds, env.judge), *filter(None, (marks.status,))),
+        status=(*_status(env.seconds, env.judge, language), *filter(None, (marks.status,))),
         looked=marks.floor,
         flags=marks.flags,
         people=people.copy(),
@@ -120,10 +126,10 @@ def _moved(goal: Goal, frame: Pose) -> Goal:
 _SETTLED = (Verdict.DONE, Verdict.SKIPPED, Verdict.PENDING)
 
 
-def _status(seconds: float, judge: Judge) -> tuple[str, ...]:
-    current = [v for v in judge.verdicts if v not in _SETTLED]
-    verdict = str(current[0]) if current else "done"
+def _status(seconds: float, judge: Judge, language: Language) -> tuple[str, ...]:
+    current = next((v for v in judge.verdicts if v not in _SETTLED), Verdict.DONE)
+    time = f"{seconds:.1f}".replace(".", language.decimal)
     return (
-        f"t = {seconds:.1f} s   {verdict}",
-        f"collisions: {judge.period.collisions}",
+        f"t = {time} s   {label(current, language.code)}",
+        f"{label('collisions', language.code)}: {judge.period.collisions}",
     )

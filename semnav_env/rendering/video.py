@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -70,7 +70,8 @@ def save_png(path: str | Path, frame: Picture, scale: float = 1.0) -> Path:
     """Save one picture; see `save_video`."""
     target = _prepared(path, [frame], 1.0, scale)
     with replacing(target) as part:
-        _image(frame, scale).save(part, optimize=True)
+        for picture in _alike([frame]):
+            _image(picture, scale).save(part, optimize=True)
     return target
 
 
@@ -83,7 +84,7 @@ def save_gif(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
         raise ValueError(f"fps is {fps}; a GIF shows at most {MAX_GIF_RATE:g}")
     target = _prepared(path, frames, fps, scale)
     palette = Palette.of([_image(frame, scale) for frame in _sampled(frames)])
-    images = (palette.indexed(_image(frame, scale)) for frame in frames)
+    images = (palette.indexed(_image(frame, scale)) for frame in _alike(frames))
     first = next(images)
     with replacing(target) as part:
         first.save(
@@ -110,7 +111,7 @@ def save_mp4(path: str | Path, frames: Sequence[Picture], fps: float, scale: flo
         ) from error
     with replacing(target) as part, imageio.imopen(part, "w", plugin="pyav") as film:
         film.init_video_stream("libx264", fps=fps)
-        for frame in frames:
+        for frame in _alike(frames):
             pixels = np.asarray(_image(frame, scale))
             film.write_frame(pixels[: len(pixels) // 2 * 2, : pixels.shape[1] // 2 * 2])
     return target
@@ -120,14 +121,26 @@ def _prepared(path: str | Path, frames: Sequence[Picture], fps: float, scale: fl
     """Check the arguments of a film."""
     if len(frames) == 0:
         raise ValueError(f"there are no frames to save as {path}")
-    shapes = {np.shape(frame) for frame in frames}
-    if len(shapes) > 1 or len(shape := shapes.pop()) != 3 or shape[2] != 3:
-        raise ValueError("all frames must have one shape, (height, width, 3)")
     if not 0 < scale <= 1:
         raise ValueError(f"scale is {scale}; it must be above 0 and at most 1")
     if not 0 < fps < float("inf"):
         raise ValueError(f"fps is {fps}; it must be positive")
     return Path(path)
+
+
+def _alike(frames: Iterable[Picture]) -> Iterator[Picture]:
+    """The frames one by one, so that a sequence may draw each when it is its turn.
+
+    Raises:
+        ValueError: one is no picture, or of another shape than the first.
+    """
+    first: tuple[int, ...] | None = None
+    for frame in frames:
+        shape = np.shape(frame)
+        first = first or shape
+        if shape != first or len(shape) != 3 or shape[2] != 3:
+            raise ValueError("all frames must have one shape, (height, width, 3)")
+        yield frame
 
 
 def _image(frame: Picture, scale: float) -> Image.Image:
@@ -140,7 +153,7 @@ def _image(frame: Picture, scale: float) -> Image.Image:
 
 def _sampled(frames: Sequence[Picture]) -> list[Picture]:
     chosen = np.linspace(0, len(frames) - 1, min(PALETTE_FRAMES, len(frames))).round().astype(int)
-    return [frames[index] for index in chosen]
+    return list(_alike(frames[index] for index in chosen.tolist()))
 
 
 def _durations(count: int, fps: float) -> list[int]:

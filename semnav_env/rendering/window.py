@@ -11,6 +11,10 @@ UNSEEN = "offscreen"
 """What SDL takes where it finds no display; nobody sees its windows, or could close them."""
 
 
+class NoDisplayError(RuntimeError):
+    """There is no display on which a window could be opened; its cause says why."""
+
+
 class Window:
     """A window that shows finished pages at a steady rate.
 
@@ -20,7 +24,7 @@ class Window:
         fps: pages per second that `present` slows down to.
 
     Raises:
-        RuntimeError: there is no display.
+        NoDisplayError: there is no display.
     """
 
     def __init__(self, size: tuple[int, int], title: str, fps: float) -> None:
@@ -32,7 +36,7 @@ class Window:
                 raise self._pygame.error("none was found")
             self._screen = self._pygame.display.set_mode(size)
         except self._pygame.error as error:
-            raise RuntimeError(
+            raise NoDisplayError(
                 f'render_mode="human" needs a display ({error}); "rgb_array" needs none'
             ) from error
         self._pygame.display.set_caption(title)

@@ -19,6 +19,9 @@ from typing import Any
 SCENE = {"type": "scene", "plan": "office_cross", "pose": [1.3, 9.1, 0.0]}
 COMMAND = {"type": "command", "text": "turn left at the intersection, then go down the hallway"}
 
+PATIENCE = 300.0
+"""How long a busy machine may take for a message, seconds."""
+
 HEADINGS = (
     "| clients | to first motion, ms: median, most | pictures a second: mean | least "
     "| of a core | server, MB |"
@@ -77,20 +80,20 @@ class Arguments:
 
         with connect(f"{address}/session", max_size=None) as socket:
             socket.send(json.dumps(SCENE))
-            start = _next(socket, "frame")["pose"]
+            start = next_message(socket, "frame")["pose"]
             for _ in range(self.runs):
                 asked = time.perf_counter()
                 socket.send(json.dumps(COMMAND))
-                _next(socket, "understood")
-                while _next(socket, "frame")["pose"] == start:
+                next_message(socket, "understood")
+                while next_message(socket, "frame")["pose"] == start:
                     pass
                 moved = time.perf_counter()
                 pictures = 0
                 while time.perf_counter() < moved + self.seconds:
-                    pictures += _next(socket, "frame", "ended")["type"] == "frame"
+                    pictures += next_message(socket, "frame", "ended")["type"] == "frame"
                 found.append((moved - asked, pictures / (time.perf_counter() - moved)))
                 socket.send(json.dumps({"type": "playback", "action": "stop"}))
-                _next(socket, "ended")
+                next_message(socket, "ended")
 
 
 @contextmanager
@@ -120,10 +123,10 @@ def processor_seconds(process: int) -> float:
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
-def _next(socket: Any, *kinds: str) -> dict[str, Any]:
+def next_message(socket: Any, *kinds: str) -> dict[str, Any]:
     """The next message of one of these types."""
     while True:
-        message: dict[str, Any] = json.loads(socket.recv(timeout=60))
+        message: dict[str, Any] = json.loads(socket.recv(timeout=PATIENCE))
         if message["type"] in kinds:
             return message
         if message["type"] in ("error", "refused"):

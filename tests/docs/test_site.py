@@ -84,7 +84,7 @@ def test_no_page_has_a_name_that_sphinx_writes_over() -> None:
 @pytest.mark.slow
 def test_every_source_becomes_a_page_with_its_own_heading(tmp_path: Path) -> None:
     """The file alone proves nothing: Sphinx's search page has the name of a page `search`."""
-    for needed in ("sphinx", "furo", "myst_parser", "sphinx_design"):
+    for needed in ("sphinx", "furo", "myst_parser"):
         pytest.importorskip(needed, reason='pip install "semnav-env[docs]"')
     words = ["-W", "-q", "-b", "html", "-d", str(tmp_path / "doctrees"), str(DOCS), str(tmp_path)]
     subprocess.run([sys.executable, "-m", "sphinx", *words], check=True, cwd=ROOT)

@@ -83,7 +83,7 @@ def test_a_window_without_a_display_is_refused() -> None:
     code = f"{IMPORTS}Viewer(PLAN).show(PLAIN)"
     done = run_with_driver(code, "no_such_driver")
     assert done.returncode != 0
-    assert 'RuntimeError: render_mode="human" needs a display' in done.stderr
+    assert 'NoDisplayError: render_mode="human" needs a display' in done.stderr
     assert '"rgb_array" needs none' in done.stderr
 
 
@@ -98,7 +98,7 @@ def test_a_window_that_nobody_would_see_is_refused() -> None:
         check=False,
     )
     assert done.returncode != 0
-    assert 'RuntimeError: render_mode="human" needs a display' in done.stderr
+    assert 'NoDisplayError: render_mode="human" needs a display' in done.stderr
 
 
 def test_missing_pygame_is_reported_only_when_drawing() -> None:

@@ -248,3 +248,15 @@ def test_no_screen_is_named(
     pygame.display.quit()
     assert main(["play", "stop", "--pose", START]) == 2
     assert "needs a display" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("words", [["demo", "go forward", "--show"], ["view", "test_real-00000"]])
+def test_what_opens_a_window_says_in_one_line_that_it_needs_a_display(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("SDL_VIDEODRIVER", "no_such_driver")
+    pygame.display.quit()
+    assert main(words) == 2
+    [line] = capsys.readouterr().err.strip().splitlines()
+    assert "a window needs a display" in line
+    assert "FILE writes a film without one" in line

@@ -3,6 +3,7 @@
 from semnav_agents.evaluation.ambiguity import interpreter_of, misreading
 from semnav_agents.evaluation.drive import Drive, drive
 from semnav_agents.evaluation.results import (
+    LeftOut,
     Result,
     Summary,
     common_causes,
@@ -16,6 +17,7 @@ __all__ = [
     "SUITES",
     "Drive",
     "Extras",
+    "LeftOut",
     "Result",
     "Summary",
     "Trial",

@@ -63,6 +63,28 @@ class Result:
 
 
 @dataclass(frozen=True)
+class LeftOut:
+    """An episode that is not driven: its command is void where doors and furniture have changed.
+
+    Attributes:
+        command: what the robot was to be told.
+        seed: of the episode.
+        why: what the command lacks.
+        episode: id of a frozen episode; otherwise empty.
+    """
+
+    command: str
+    seed: int
+    why: str
+    episode: str = ""
+
+    def row(self) -> dict[str, object]:
+        """As one flat object, for a line of a file; it has none of the measures."""
+        named = {"episode": self.episode} if self.episode else {}
+        return {"command": self.command, "seed": self.seed, **named, "left_out": self.why}
+
+
+@dataclass(frozen=True)
 class Summary:
     """The measures of the episodes of a group, or of all.
 
@@ -74,6 +96,7 @@ class Summary:
             `metrics.WORST_SHARES`.
         failures: the failed episodes.
         disagreements: number of episodes that the second opinion judges otherwise.
+        left_out: number of episodes that could not begin, and count in no measure.
     """
 
     name: str
@@ -82,6 +105,7 @@ class Summary:
     worst: tuple[dict[str, float], ...]
     failures: tuple[Result, ...]
     disagreements: int
+    left_out: int = 0
 
     @property
     def intervals(self) -> dict[str, tuple[float, float]]:
@@ -93,6 +117,7 @@ class Summary:
         return {
             "name": self.name,
             "episodes": self.episodes,
+            "left_out": self.left_out,
             **for_json(self.means),
             "intervals": self.intervals,
             "cvar": {
@@ -104,8 +129,14 @@ class Summary:
         }
 
 
-def summarise(name: str, results: Sequence[Result]) -> Summary:
-    """The summary of some results, of which there must be at least one."""
+def summarise(name: str, results: Sequence[Result], left_out: int = 0) -> Summary:
+    """The summary of some results, of which there must be at least one.
+
+    Args:
+        name: of the group.
+        results: of the episodes that were driven.
+        left_out: number of those that were not.
+    """
     measured = [result.metrics for result in results]
     return Summary(
         name,
@@ -114,6 +145,7 @@ def summarise(name: str, results: Sequence[Result]) -> Summary:
         tuple(worst(measured, share) for share in WORST_SHARES),
         tuple(result for result in results if not result.success),
         sum(bool(result.rechecked) for result in results),
+        left_out,
     )
 
 

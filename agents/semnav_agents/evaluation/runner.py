@@ -9,16 +9,16 @@ import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
-from itertools import chain, groupby
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from semnav_agents.evaluation.drive import Drive, drive
-from semnav_agents.evaluation.results import Result, failure_line
+from semnav_agents.evaluation.results import LeftOut, Result, failure_line
 from semnav_agents.evaluation.suites import Trial
-from semnav_agents.evaluation.together import drive_together
+from semnav_agents.evaluation.together import CannotBegin, drive_together
 from semnav_agents.registry import AgentSource, make_agent, make_team
 from semnav_agents.team import AgentTeam
 from semnav_env.env import SemNavEnv
@@ -98,6 +98,7 @@ def run_suite(
     extras: Extras = NO_EXTRAS,
     dynamics: Dynamics = NO_DYNAMICS,
     lidar: str | LidarSpec = "tim561",
+    left_out: list[LeftOut] | None = None,
     skip: int = 0,
 ) -> Iterator[Result]:
     """The result of every trial with every seed, in their order.
@@ -112,7 +113,9 @@ def run_suite(
         extras: what else to do with each episode.
         dynamics: people, doors and furniture that move.
         lidar: a lidar or its name.
-        skip: number of the first results that are left out, because they are known.
+        left_out: takes the episodes whose command is void where `dynamics` has changed doors or
+            furniture; without it such an episode is an error.
+        skip: number of the first results that are not driven, because they are known.
 
     Raises:
         ValueError: there is no such agent, or with several workers one that other processes
@@ -122,6 +125,19 @@ def run_suite(
     jobs = suite_jobs(trials, seeds)[skip:]
     if not jobs:
         return
+    for outcome in _outcomes(setup, jobs, workers):
+        if isinstance(outcome, Result):
+            yield outcome
+        elif left_out is None:
+            raise ValueError(f"{outcome.episode or outcome.command}: {outcome.why}")
+        else:
+            left_out.append(outcome)
+
+
+def _outcomes(
+    setup: SuiteSetup, jobs: Sequence[SuiteJob], workers: int
+) -> Iterator[Result | LeftOut]:
+    """What became of each job, in their order."""
     if workers == 1:
         yield from SuiteRunner(setup).run(jobs)
         return
@@ -130,7 +146,8 @@ def run_suite(
     with for_this_process_alone():
         pool = processes.Pool(min(workers, len(shares)), _start_worker, (_pickled(setup),))
     with pool:
-        yield from chain.from_iterable(pool.imap(_work, shares))
+        for some in pool.imap(_work, shares):
+            yield from some
 
 
 @dataclass(frozen=True)
@@ -172,6 +189,11 @@ class SuiteJob:
             return self.trial.named_in_errors()
         return nullcontext()
 
+    def left_out(self, why: str) -> LeftOut:
+        """That it cannot begin."""
+        episode = self.trial.id if isinstance(self.trial, Episode) else ""
+        return LeftOut(self.trial.command, self.seed, why, episode)
+
     def result(self, driven: Drive, extras: Extras = NO_EXTRAS) -> Result:
         """The result of its drive."""
         if not isinstance(self.trial, Episode):
@@ -199,20 +221,23 @@ class SuiteRunner:
         self._setup = setup
         self._crews: dict[tuple[int, float], tuple[SemNavVectorEnv, AgentTeam]] = {}
 
-    def run(self, jobs: Sequence[SuiteJob]) -> Iterator[Result]:
-        """The results of jobs in their order."""
+    def run(self, jobs: Sequence[SuiteJob]) -> Iterator[Result | LeftOut]:
+        """What became of jobs, in their order."""
         for _, some in groupby(jobs, lambda job: job.max_seconds):
             yield from self._run(list(some))
 
-    def _run(self, jobs: Sequence[SuiteJob]) -> Iterator[Result]:
-        """The results of jobs with one time limit, in their order."""
+    def _run(self, jobs: Sequence[SuiteJob]) -> Iterator[Result | LeftOut]:
+        """The same for jobs with one time limit."""
         extras = self._setup.extras
         crew = self._crew(min(MAX_TOGETHER, len(jobs)), jobs[0])
-        found, done = dict[int, Result](), 0
+        found, done = dict[int, Result | LeftOut](), 0
         for number, driven in drive_together(*crew, jobs):
-            found[number] = jobs[number].result(driven, extras)
-            if extras.films is not None and not found[number].success:
-                self._film(jobs[number], extras.films)
+            if isinstance(driven, CannotBegin):
+                found[number] = jobs[number].left_out(driven.why)
+            else:
+                found[number] = result = jobs[number].result(driven, extras)
+                if extras.films is not None and not result.success:
+                    self._film(jobs[number], extras.films)
             while done in found:
                 yield found.pop(done)
                 done += 1
@@ -365,7 +390,7 @@ def _start_worker(pickled: bytes) -> None:
     _Worker.pickled = pickled
 
 
-def _work(jobs: list[SuiteJob]) -> list[Result]:
+def _work(jobs: Sequence[SuiteJob]) -> list[Result | LeftOut]:
     """Run some jobs; the agent is unpickled here, where an error reaches the caller."""
     if _Worker.runner is None:
         try:

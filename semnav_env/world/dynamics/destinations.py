@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -29,7 +27,7 @@ pushed off the ways by others."""
 class Destinations:
     """Shortest ways of people to the rooms, corridors and intersections of a plan.
 
-    Each is worked out when somebody first wants to go there, and kept.
+    Each is worked out when somebody first wants to go there, and kept for all crowds of the plan.
 
     Args:
         floor_plan: the plan with its doors as they stand at first.
@@ -41,15 +39,12 @@ class Destinations:
 
     def to(self, index: int) -> WaysTo:
         """The ways to a place."""
-        return self._geodesic.to(self.places[index])
+        return self._floor_plan.derived(_geodesic).to(self.places[index])
 
-    @cached_property
-    def _geodesic(self) -> Geodesic:
-        return Geodesic(self._floor_plan, clearance=PEOPLE_CLEARANCE)
 
-    def __getstate__(self) -> dict[str, Any]:
-        """Leave out the shortest ways, which are large and computed again after unpickling."""
-        return {key: value for key, value in self.__dict__.items() if key != "_geodesic"}
+def _geodesic(floor_plan: FloorPlan) -> Geodesic:
+    """Ways of people, who are slimmer than a robot."""
+    return Geodesic(floor_plan, clearance=PEOPLE_CLEARANCE)
 
 
 def _places(floor_plan: FloorPlan) -> list[Point]:

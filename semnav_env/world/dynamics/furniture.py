@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from shapely import Polygon
 from shapely.affinity import rotate, translate
+from shapely.geometry.base import BaseGeometry
 
 from semnav_env.robots import RobotSpec
 from semnav_env.world.dynamics.settings import Dynamics
@@ -101,7 +102,7 @@ class FurnitureMover:
         self._half_lanes = LANE_WIDTH / 2, (robot.width + LANE_MARGIN) / 2
         self.half_lane = self._half_lanes[1]
         self._ways: Ways | None = None
-        self.half_lane = self._half_lanes[1]
+        self._bare: list[BaseGeometry] | None = None
 
     def move(self, index: int, rng: np.random.Generator) -> None:
         """Move a piece, if a free place is found."""
@@ -155,7 +156,7 @@ class FurnitureMover:
                 plan.solids.query(piece, "dwithin", FURNITURE_GAP)
             ):
                 continue
-            ways = self._ways or [free_ways(plan, half) for half in self._half_lanes]
+            ways = self._ways or self._ways_of(plan)
             self._ways = ways
             left = _ways_beside(piece, ways, self._half_lanes)
             if left is not None:
@@ -163,12 +164,32 @@ class FurnitureMover:
                 return _outline(piece)
         return None
 
+    def _ways_of(self, plan: FloorPlan) -> Ways:
+        """`free_ways` of the plan with the pieces as they stand now.
+
+        What cannot move takes nearly all of the time, and is worked out once.
+        """
+        if self._bare is None:
+            fixed = tuple(s for s in self.plan.surfaces if not _is_piece(s))
+            bare = replace(self.plan, surfaces=fixed)
+            self._bare = [_lanes(bare, half) for half in self._half_lanes]
+        outlines = [shapely.LineString(s.points) for s in plan.surfaces if _is_piece(s)]
+        taken = (shapely.buffer(outlines, half, quad_segs=16) for half in self._half_lanes)
+        return [
+            list(shapely.get_parts(lanes.difference(shapely.union_all(buffers))))
+            for lanes, buffers in zip(self._bare, taken, strict=True)
+        ]
+
 
 def free_ways(plan: FloorPlan, half: float) -> list[Polygon]:
     """Connected regions in which the middle of a lane of some half width may lie."""
+    return list(shapely.get_parts(_lanes(plan, half)))
+
+
+def _lanes(plan: FloorPlan, half: float) -> BaseGeometry:
+    """Where the middle of a lane may lie, as one shape."""
     lines = shapely.multilinestrings(plan.segments.reshape(-1, 2, 2))
-    lanes = plan.boundary.difference(shapely.buffer(lines, half, quad_segs=16))
-    return list(shapely.get_parts(lanes))
+    return plan.boundary.difference(shapely.buffer(lines, half, quad_segs=16))
 
 
 def _ways_beside(piece: Polygon, ways: Ways, half_lanes: tuple[float, ...]) -> Ways | None:

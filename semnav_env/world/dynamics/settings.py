@@ -101,6 +101,11 @@ class Dynamics:
         """Whether every episode has furniture, or people on the floor, of its own."""
         return self.moved_furniture > 0.0 or self.added_boxes > 0 or self.victims > 0
 
+    @property
+    def changes_plan(self) -> bool:
+        """Whether an episode's doors or furniture can differ from those of the plan as drawn."""
+        return self.furnishes or self.changing_doors > 0.0
+
 
 NO_DYNAMICS = Dynamics()
 """Settings with which nothing moves but the robot."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import count
 from typing import Any
 
 import numpy as np
@@ -38,9 +37,6 @@ RECENT_FIELDS = RecentFields(max_bytes=250_000_000)
 """Distances to the goals used last, in all plans together: doors come up again and again, but in a
 large plan the distances to one take megabytes."""
 
-_NUMBERS = count()
-"""Of `Geodesic`s, each of which has fields of its own."""
-
 
 class Geodesic:
     """Shortest ways of a robot's centre in one floor plan, each computed on demand.
@@ -66,7 +62,7 @@ class Geodesic:
             floor_plan, GRID_SPACING, COARSEST_SPACING, "for ways to be found in it"
         )
         self.grid = Grid.over((west, south), (east, north), spacing)
-        self._floor_plan, self._number = floor_plan, next(_NUMBERS)
+        self._floor_plan, self._number = floor_plan, RECENT_FIELDS.number(self)
         self._comfort, self._clearance = comfort, clearance
 
     def __getstate__(self) -> dict[str, Any]:
@@ -74,7 +70,7 @@ class Geodesic:
         return {name: value for name, value in self.__dict__.items() if name not in made_again}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state, _number=next(_NUMBERS))
+        self.__dict__.update(state, _number=RECENT_FIELDS.number(self))
 
     def to(self, goal: Point) -> WaysTo:
         """The shortest ways to a point."""
@@ -87,7 +83,7 @@ class Geodesic:
         """
         cell = self._cell(goal)
         return RECENT_FIELDS.get(
-            (self._number, cell), lambda: costs_from(cell, self._weight, self.grid.spacing)
+            self._number, cell, lambda: costs_from(cell, self._weight, self.grid.spacing)
         )
 
     def _cell(self, point: Point) -> tuple[int, int]:

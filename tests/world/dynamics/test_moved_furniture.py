@@ -6,10 +6,12 @@ import math
 
 import numpy as np
 import pytest
+import shapely
 from shapely import Polygon
 
 from semnav_env.robots import SPOT, WHEELCHAIR
 from semnav_env.world.dynamics import Dynamics, PlanSource
+from semnav_env.world.dynamics.furniture import FurnitureMover, free_ways
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.floor_plan import FloorPlan, Material
 from semnav_env.world.maps.geodesic import Geodesic
@@ -72,3 +74,13 @@ def test_furniture_of_a_seed_is_the_same_and_stays_without_one() -> None:
     assert rearranged(1).surfaces == rearranged(1).surfaces != rearranged(2).surfaces
     drawn = load_floor_plan("office_cross")
     assert PlanSource(drawn, MUCH, SPOT).plan() is drawn
+
+
+def test_ways_around_furniture_are_those_of_the_whole_plan() -> None:
+    """What cannot move is worked out once, and the pieces are cut out of it."""
+    plan = load_floor_plan("office:small:3")
+    mover = FurnitureMover(plan, WHEELCHAIR, None)
+    for half, ways in zip(mover._half_lanes, mover._ways_of(plan), strict=True):
+        whole = shapely.union_all(free_ways(plan, half))
+        assert shapely.union_all(ways).symmetric_difference(whole).area < 1e-6
+        assert len(ways) == len(free_ways(plan, half))

@@ -14,8 +14,6 @@ from hypothesis import strategies as st
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.floor_plan import FloorPlan, Surface
 from semnav_env.world.maps.geodesic import CLEARANCE, GRID_SPACING, Geodesic
-from semnav_env.world.maps.recent_fields import RecentFields
-from semnav_features.frames import FloatArray
 
 PLAN = load_floor_plan("office_cross")
 GEODESIC = Geodesic(PLAN)
@@ -67,22 +65,6 @@ def test_a_cell_is_free_where_everything_solid_is_far_enough(
     inside = shapely.contains(plan.boundary, places)
     clear = np.abs(distance - CLEARANCE) > 1e-6
     assert (Geodesic(plan).free == (inside & (distance > CLEARANCE)))[clear].all()
-
-
-def test_distances_are_kept_until_they_take_too_much_memory() -> None:
-    recent, made = RecentFields(max_bytes=8 * 30), []
-
-    def field(key: int) -> FloatArray:
-        made.append(key)
-        return np.full(10, float(key))
-
-    first = recent.get(0, lambda: field(0))
-    for key in range(1, 6):
-        assert recent.get(key, lambda key=key: field(key))[0] == key  # type: ignore[misc]
-        assert recent.get(0, lambda: field(0)) is first
-    recent.get(1, lambda: field(1))
-    assert made == [0, 1, 2, 3, 4, 5, 1]
-    assert recent.kept_bytes <= recent.max_bytes
 
 
 def test_geodesics_of_one_plan_are_shared_and_their_fields_kept() -> None:
