@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from semnav_env.judge.episodes import SPLITS, Episode
-from semnav_env.language.suggest import did_you_mean
+from semnav_env.language.vocabulary.typos import did_you_mean
 from semnav_features.frames import Pose
 
 SEARCH = "search the house"

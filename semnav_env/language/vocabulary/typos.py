@@ -9,6 +9,9 @@ from rapidfuzz.distance import OSA
 MIN_LENGTH, LONG = 3, 7
 """The shortest word that is corrected, and the shortest in which two slips are, letters."""
 
+MAX_WORD_LENGTH = 80
+"""Only so many characters of an unknown word are compared; no known word is longer."""
+
 SHORT = 5
 """In words up to this length no letter is taken for another one: "late" is no "gate"."""
 
@@ -36,3 +39,9 @@ def nearest_word(word: str, known: Iterable[str]) -> str | None:
         same_first,
         key=lambda each: (sorted(each) != sorted(word), set(each) != set(word), -len(each), each),
     )
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """What an error adds to its list of known words: "; did you mean 'left'?", or ""."""
+    found = nearest_word(word[:MAX_WORD_LENGTH], known)
+    return f"; did you mean {found!r}?" if found else ""
