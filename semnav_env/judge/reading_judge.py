@@ -31,6 +31,7 @@ from semnav_env.judge.judge_state import (
 )
 from semnav_env.judge.mission import Mission
 from semnav_env.judge.verdict import Verdict, verdicts
+from semnav_env.mind.grounding.clause_progress import CLAUSE_DONE
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import Goal
 from semnav_env.mind.grounding.ways import KnownWays
@@ -187,7 +188,8 @@ class ReadingJudge:
             self.crossed.append(crossed.name)
         if completed:
             self._met.append(goal)
-            self._head_for(self.follower.goal)
+        if completed or (events & CLAUSE_DONE and self.follower.goal is not goal):
+            self._head_for(self.follower.goal)  # of a room it is searched behind its door
         if (self.failure is None and not self.follower.done) or completed:
             self.failure = self._fault(events, clause if completed else None, goal, crossed)
             if completed and strayed and self.failure is None:
