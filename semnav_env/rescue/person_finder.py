@@ -103,7 +103,7 @@ class PersonFinder(PersonSearch):
     ) -> None:
         """See `Payload`."""
         super().begin(plan, setup, start, rng)
-        drawn = np.random.default_rng(rng.integers(2**62))
+        drawn = np.random.default_rng([self._seed, 1])
         self._array = MicrophoneArray(plan, self.microphones, drawn)
         self._dealt = drawn.permutation(len(NAMES)).tolist()
         self._regions = (*plan.rooms, *plan.areas, *plan.corridors, *plan.intersections)
