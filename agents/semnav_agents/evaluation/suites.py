@@ -221,7 +221,7 @@ _VILLA_FIND = (
     ),
     *_finding(
         "kitchen",
-        _IN_THE_KITCHEN,
+        (1.5, -2.8, math.pi / 2),
         "search this room and leave the room",
         f"look around, {_MEET} and {_ASK}",
         "call and listen and leave the room",
