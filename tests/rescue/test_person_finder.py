@@ -74,7 +74,7 @@ def test_without_a_payload_nobody_is_found(clause: Clause) -> None:
 
 
 def test_a_robot_that_stands_still_calls_once_as_told() -> None:
-    env, info = driven(CallOut(), (STILL, 200))
+    _, info = driven(CallOut(), (STILL, 200))
     assert info["verdicts"] == ("done",)
     assert info["found"]["calls"] == 1
 
@@ -117,7 +117,7 @@ def test_those_to_whom_one_can_talk_are_in_the_same_room_and_near() -> None:
 
 
 def test_a_robot_before_a_person_has_come_to_that_person_once() -> None:
-    env, info = driven(GoToPerson(), (STILL, 60), plan=with_person(1.2, 3.4))
+    env, _ = driven(GoToPerson(), (STILL, 60), plan=with_person(1.2, 3.4))
     finder = env.payload
     assert isinstance(finder, PersonFinder)
     assert finder.fulfils(GoToPerson())
