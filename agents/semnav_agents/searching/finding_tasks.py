@@ -22,6 +22,9 @@ TURN_MARGIN = 0.08
 TURN_RADIUS = 1.2
 """Largest distance of the place to turn from where the clause began, metres."""
 
+PATIENCE = 200
+"""Control periods after which the robot turns where it is, though it has not come to that place."""
+
 SURE = 0.9
 """Probability from which on a possible person counts as found."""
 
@@ -86,7 +89,7 @@ class LookTask:
 
     def __init__(self, chart: SearchMap, looker: Looker, pose: Pose) -> None:
         self._place: Pose | None = _place_to_turn(chart, looker, pose)
-        self._patience = chart.settings.patience
+        self._patience = PATIENCE
         self._tolerance = chart.settings.position_tolerance
         self._turned, self._heading = 0.0, pose[2]
 
