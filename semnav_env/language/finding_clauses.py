@@ -20,8 +20,8 @@ class FindingClause(Clause):
 class SearchHouse(FindingClause):
     """Look into every room and report every person that is found: "search the house".
 
-    Its token is "go to room" with the number 0: it needs no verb of its own, so agents that were
-    trained before keep their observations. That holds for the other clauses here, too.
+    Like those below it has the token of another verb, so agents trained before keep their
+    observations.
     """
 
     forms: ClassVar[tuple[Form, ...]] = (
@@ -85,10 +85,7 @@ class GoToPerson(FindingClause):
 
 @dataclass(frozen=True, slots=True)
 class AskName(FindingClause):
-    """Ask the person to whom the robot went for the name: "ask for the name".
-
-    Without such a person it goes to the nearest one that was found.
-    """
+    """Ask the person to whom the robot went, or the nearest that was found: "ask for the name"."""
 
     forms: ClassVar[tuple[Form, ...]] = (
         form("ask_name", "ask", "ask", (TokenVerb.GO_TO, 3), sampled=False),

@@ -6,11 +6,10 @@ from collections.abc import Iterable
 
 from rapidfuzz.distance import OSA
 
+from semnav_env.language.normalise import MAX_WORD_LENGTH
+
 MIN_LENGTH, LONG = 3, 7
 """The shortest word that is corrected, and the shortest in which two slips are, letters."""
-
-MAX_WORD_LENGTH = 80
-"""Only so many characters of an unknown word are compared; no known word is longer."""
 
 SHORT = 5
 """In words up to this length no letter is taken for another one: "late" is no "gate"."""
