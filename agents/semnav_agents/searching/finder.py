@@ -70,10 +70,10 @@ class Finder(PlanSearcher):
         task = self._current_task(observation, pose)
         if task is None:
             return self._driver.act(observation)
-        move = task.move(pose, people_of(observation, pose))
-        if move.yaw_rate:
-            return shares_of((0.0, 0.0, move.yaw_rate), self._pilot.robot)
-        return self._drive(observation, move.target, careful=move.careful)
+        step = task.next_step(pose, people_of(observation, pose))
+        if step.yaw_rate:
+            return shares_of((0.0, 0.0, step.yaw_rate), self._pilot.robot)
+        return self._drive(observation, step.target, careful=step.careful)
 
     def _current_task(self, observation: Observation, pose: Pose) -> FindingTask | None:
         """The task of the clause that the robot believes to be active; None if it only drives."""

@@ -38,7 +38,7 @@ People: TypeAlias = list[tuple[Point, float, bool]]
 """Place (odometry frame), probability and whether it is reported, of each possible person."""
 
 
-class Move(NamedTuple):
+class FindingStep(NamedTuple):
     """What to do in a control period: drive to a pose, or turn on the spot, or stand still.
 
     Attributes:
@@ -55,7 +55,7 @@ class Move(NamedTuple):
 class FindingTask(Protocol):
     """A clause to find people, under way."""
 
-    def move(self, pose: Pose, people: People) -> Move:
+    def next_step(self, pose: Pose, people: People) -> FindingStep:
         """What to do now, at a believed pose."""
         ...
 
@@ -72,10 +72,10 @@ class SearchTask:
     def __init__(self, chart: SearchMap, looker: Looker, room: int | None) -> None:
         self._searcher = Searcher(chart, looker, room)
 
-    def move(self, pose: Pose, people: People) -> Move:
+    def next_step(self, pose: Pose, people: People) -> FindingStep:
         """See `FindingTask`."""
         target = self._searcher.update(pose, people)
-        return Move(target, careful=not self._searcher.stuck)
+        return FindingStep(target, careful=not self._searcher.stuck)
 
 
 class LookTask:
@@ -93,17 +93,17 @@ class LookTask:
         self._tolerance = chart.settings.position_tolerance
         self._turned, self._heading = 0.0, pose[2]
 
-    def move(self, pose: Pose, people: People) -> Move:
+    def next_step(self, pose: Pose, people: People) -> FindingStep:
         """See `FindingTask`."""
         del people
         if self._place is not None:
             self._patience -= 1
             if math.dist(pose[:2], self._place[:2]) > self._tolerance and self._patience > 0:
-                return Move(self._place)
+                return FindingStep(self._place)
             self._place, self._heading = None, pose[2]
         self._turned += abs(wrap_angle(pose[2] - self._heading))
         self._heading = pose[2]
-        return Move(yaw_rate=TURN_RATE) if self._turned < math.tau else Move()
+        return FindingStep(yaw_rate=TURN_RATE) if self._turned < math.tau else FindingStep()
 
 
 class PersonTask:
@@ -128,16 +128,16 @@ class PersonTask:
         self._done = False
         self._last: Pose | None = None
 
-    def move(self, pose: Pose, people: People) -> Move:
+    def next_step(self, pose: Pose, people: People) -> FindingStep:
         """See `FindingTask`."""
         if self._again and self._visited and _is_with(pose, self._visited[-1]):
             self._done = True
         if self._done:
-            return Move()
+            return FindingStep()
         if self._person is None:
             self._person = self._nearest(pose, people)
         if self._person is None:
-            return Move()
+            return FindingStep()
         near = [each for each in people if math.dist(each[0], self._person) < SAME_PERSON]
         self._person = near[0][0] if near else self._person
         if self._target is None:
@@ -146,7 +146,7 @@ class PersonTask:
             self._look(any(reported for _, _, reported in near))
         elif self._stays(pose):
             self._target = None
-        return Move(self._target, careful=len(self._tried) < MOST_PLACES)
+        return FindingStep(self._target, careful=len(self._tried) < MOST_PLACES)
 
     def _nearest(self, pose: Pose, people: People) -> Point | None:
         found = [place for place, share, reported in people if reported or share >= SURE]
