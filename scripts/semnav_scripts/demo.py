@@ -32,8 +32,8 @@ DEFAULT_MAP = "heidelberg_hallway"
 STEPS_PER_SEARCH_FRAME = 60
 """The same for a search, which takes minutes: the film is twenty times as fast."""
 
-KNOWS_THE_PLAN = "agent searcher, which knows the floor plan; --agent explorer does without"
-"""Remark on the default agent of a search."""
+KNOWS_THE_PLAN = "the agent knows the floor plan; --agent explorer searches a house without it"
+"""Remark on the default agent of a search of a house."""
 
 
 @dataclass(frozen=True)

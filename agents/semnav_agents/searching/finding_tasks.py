@@ -16,8 +16,9 @@ from semnav_features.frames import Point, Pose, wrap_angle
 TURN_RATE = 1.0
 """Yaw rate of a look around, rad/s."""
 
-TURN_MARGIN = 0.08
-"""Distance from everything solid beside the body that turns on the spot, metres."""
+TURN_MARGIN = 0.28
+"""Distance from everything solid beside the body that turns on the spot, metres: it comes to within
+0.2 m of the place to turn."""
 
 TURN_RADIUS = 1.2
 """Largest distance of the place to turn from where the clause began, metres."""
