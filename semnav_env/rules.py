@@ -167,6 +167,8 @@ class SuccessRules:
         search_rest_seconds: time without motion after which a robot that searches says that it has
             finished, seconds: longer than it needs to look all around and to plan again where
             there is no path.
+        finding_rest_seconds: the same of one that looks around, calls, goes to a person or asks,
+            seconds: longer than it needs to turn on the spot once.
         wrong_arm_depth: a robot farther than this inside an arm that the clause does not name has
             taken a wrong turn, metres: its body has left the corridor.
         missed_turn_distance: a robot farther than this behind the junction at which it should turn
@@ -200,6 +202,7 @@ class SuccessRules:
     still_seconds: Annotated[float, Bounds(0.0, 1e6, "s")] = 10.0
     final_still_seconds: Annotated[float, Bounds(0.0, 1e6, "s")] = 1.0
     search_rest_seconds: Annotated[float, Bounds(0.0, 1e6, "s")] = 20.0
+    finding_rest_seconds: Annotated[float, Bounds(0.0, 1e6, "s")] = 10.0
     wrong_arm_depth: Length = 1.2
     missed_turn_distance: Length = 2.4
     wall_share: Share = 0.5

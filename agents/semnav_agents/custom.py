@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from semnav_agents.base import Agent
-from semnav_env.language.suggest import did_you_mean
+from semnav_env.language.vocabulary.typos import did_you_mean
 
 METHODS = {"reset": "reset(info)", "act": "act(observation)"}
 """Methods of an agent, and how they are called."""

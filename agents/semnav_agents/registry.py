@@ -14,6 +14,7 @@ from semnav_agents.learned import LearnedAgent, pretrained_names
 from semnav_agents.oracle import OracleAgent
 from semnav_agents.scripted import ScriptedAgent, ScriptedTeam
 from semnav_agents.searching.agent import Explorer, PlanSearcher
+from semnav_agents.searching.finder import Finder
 from semnav_agents.team import AgentsOneByOne, AgentTeam
 
 AgentSource: TypeAlias = str | Callable[[], Agent]
@@ -32,6 +33,7 @@ _BUILT_IN: dict[str, Callable[[], Agent]] = {
     "random": RandomAgent,
     "searcher": PlanSearcher,
     "explorer": Explorer,
+    "finder": Finder,
     "listener_drives": listener_drives,
 }
 
@@ -40,7 +42,7 @@ def make_agent(source: AgentSource) -> Agent:
     """A new agent.
 
     Args:
-        source: "scripted", "oracle", "blind", "random", "searcher", "explorer",
+        source: "scripted", "oracle", "blind", "random", "searcher", "explorer", "finder",
             "listener_drives" or a name of `pretrained_names` or `hearing_names`; the folder of a
             trained agent; "package.module:Class"; or a class or function that is called without
             arguments.

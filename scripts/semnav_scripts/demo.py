@@ -14,6 +14,7 @@ from semnav_agents.evaluation.drive import recognised_impossible
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.language import SearchHouse, parse
+from semnav_env.language.finding_clauses import FindingClause
 from semnav_env.language.language import Language
 from semnav_env.language.vocabulary.recognition import language_of_text
 from semnav_env.rendering.film import STEPS_PER_FRAME, Film
@@ -32,8 +33,8 @@ DEFAULT_MAP = "heidelberg_hallway"
 STEPS_PER_SEARCH_FRAME = 60
 """The same for a search, which takes minutes: the film is twenty times as fast."""
 
-KNOWS_THE_PLAN = "agent searcher, which knows the floor plan; --agent explorer does without"
-"""Remark on the default agent of a search."""
+KNOWS_THE_PLAN = "the agent knows the floor plan; --agent explorer searches a house without it"
+"""Remark on the default agent of a search of a house."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,8 @@ class _DemoTask:
         spoken: language of the command.
         options: for `env.reset`.
         seed: for `env.reset`.
-        searches: whether it is a search for people.
+        searches: whether people are to be found.
+        usual_agent: who drives if nobody is named.
         limits: of the episode, as arguments of the environment; its own if empty.
         infeasible: whether the right answer is to say that the command is impossible.
     """
@@ -55,6 +57,7 @@ class _DemoTask:
     options: dict[str, Any]
     seed: int
     searches: bool = False
+    usual_agent: str = "scripted"
     limits: dict[str, Any] = field(default_factory=dict)
     infeasible: bool = False
 
@@ -76,7 +79,8 @@ class Arguments:
         robot: wheelchair or spot.
         agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
             folder of a trained agent, or package.module:Class; searcher (knows the plan) or
-            explorer for a search. If not given: scripted, for a search searcher.
+            explorer for a search of a house, finder for other commands to find people. If not
+            given: scripted, or one of these.
         pose: start pose of the robot, x,y,heading in metres and radians; random if not given.
         seed: seed of everything that is random; 0 if not given.
         dynamics: people, doors and furniture that move.
@@ -106,7 +110,7 @@ class Arguments:
             raise ValueError(f"seed is {self.seed}; it must be 0 or more")
         self._check_files()
         told = self._commanded() if self.episode is None else self._frozen(self.episode)
-        agent = make_agent(self.agent or ("searcher" if told.searches else "scripted"))
+        agent = make_agent(self.agent or told.usual_agent)
         env = self._environment(told, agent)
         film = Film(env, STEPS_PER_SEARCH_FRAME if told.searches else STEPS_PER_FRAME)
         observation, start = env.reset(seed=told.seed, options=told.options)
@@ -144,8 +148,10 @@ class Arguments:
         options: dict[str, Any] = {"command": command, "language": spoken.code}
         if self.pose is not None:
             options["pose"] = parse_pose(self.pose)
-        searches = SearchHouse() in command.clauses
-        return _DemoTask(plan, spoken, options, self.seed or 0, searches)
+        searches = any(isinstance(each, FindingClause) for each in command.clauses)
+        searcher = "searcher" if command.clauses == (SearchHouse(),) else "finder"
+        usual = searcher if searches else "scripted"
+        return _DemoTask(plan, spoken, options, self.seed or 0, searches, usual)
 
     def _frozen(self, name: str) -> _DemoTask:
         """The task of a frozen episode, with the noise and the limit of `evaluate`."""

@@ -15,7 +15,7 @@ from semnav_env.judge.episodes import SPLITS, Episode, Split, load_episodes, wri
 from semnav_env.judge.episodes.check import faults
 from semnav_env.judge.episodes.generate import generate_split
 from semnav_env.judge.episodes.splits import FROZEN_SUFFIX, SEED
-from semnav_env.language.suggest import did_you_mean
+from semnav_env.language.vocabulary.typos import did_you_mean
 from semnav_features.interruption import for_this_process_alone
 from semnav_scripts.episodes_buildings import EpisodesBuildings
 from semnav_scripts.episodes_import import EpisodesImport

@@ -58,11 +58,12 @@ class Arguments:
 
     Attributes:
         suite: heidelberg, office_cross, villa_doors, villa_turns, villa_rooms, villa_exits, "villa"
-            for these four, or "all"; villa_search; a split (`semnav episodes list`); or a file of
-            episodes.
+            for these four, or "all"; villa_search; villa_find; a split (`semnav episodes list`); or
+            a file of episodes.
         agent: scripted, oracle, blind, random, drive, listener, listener_drives (trained), the
             folder of a trained agent, or package.module:Class; searcher (knows the plan) or
-            explorer for villa_search. If not given: scripted, for villa_search searcher.
+            explorer for villa_search, finder for villa_find. If not given: scripted, or one of
+            these.
         robot: wheelchair or spot.
         lidar: name of a lidar, such as rplidar_a1; docs/guides/lidars.md lists them.
         seeds: number of start poses, each with its own noise, for every command of a suite; 20 if

@@ -60,6 +60,8 @@ def goals_in_turn(
         while not follower.done:
             check_grounded(follower)
             _check_inside(follower.goal, floor_plan)
+            if follower.leads_in:
+                follower.skip_to_next(scene)
             yield follower.active, follower.goal
             follower.skip_to_next(scene)
     except GroundingError as error:

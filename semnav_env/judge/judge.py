@@ -12,7 +12,7 @@ from semnav_env.judge.judge_state import Period
 from semnav_env.judge.mission import Mission
 from semnav_env.judge.reading_judge import ReadingJudge
 from semnav_env.judge.verdict import Verdict
-from semnav_env.language.finding_clauses import SearchHouse
+from semnav_env.language.finding_clauses import FindingClause
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import Goal
 from semnav_env.world.simulator.sensed import Motion
@@ -39,7 +39,7 @@ class Judge:
         leading: the judge of the leading answer.
 
     Raises:
-        ValueError: a house is to be searched without a payload.
+        ValueError: people are to be found without a payload.
     """
 
     leading: ReadingJudge
@@ -47,10 +47,11 @@ class Judge:
     def __init__(
         self, mission: Mission, payload: Payload | None = None, *, measures_way: bool = True
     ) -> None:
-        if payload is None and SearchHouse() in mission.command.clauses:
+        finding = [c for c in mission.command.clauses if isinstance(c, FindingClause)]
+        if payload is None and finding:
             raise ValueError(
-                '"search the house" needs a person detector: make "semnav_env:SearchAndRescue-v0", '
-                "or give payload=PersonSearch() of semnav_env.rescue"
+                f'"{finding[0]}" needs a person detector: make "semnav_env:SearchAndRescue-v0", '
+                "or give payload=PersonFinder() of semnav_env.rescue"
             )
         judge_of = partial(ReadingJudge, payload=payload, measures_way=measures_way)
         self._nearest = judge_of(mission)

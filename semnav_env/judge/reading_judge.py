@@ -31,8 +31,9 @@ from semnav_env.judge.judge_state import (
 )
 from semnav_env.judge.mission import Mission
 from semnav_env.judge.verdict import Verdict, verdicts
+from semnav_env.mind.grounding.clause_progress import CLAUSE_DONE
 from semnav_env.mind.grounding.follower import Follower
-from semnav_env.mind.grounding.goal import Goal
+from semnav_env.mind.grounding.goal import Goal, wait_of
 from semnav_env.mind.grounding.ways import KnownWays
 from semnav_env.world.maps.floor_plan import FloorPlan, PlanDoor
 from semnav_env.world.simulator.sensed import Motion
@@ -187,7 +188,10 @@ class ReadingJudge:
             self.crossed.append(crossed.name)
         if completed:
             self._met.append(goal)
-            self._head_for(self.follower.goal)
+            if wait_of(goal) > 0.0:  # to stand still as told counts no more
+                self._state["still_seconds"] = 0.0
+        if completed or (events & CLAUSE_DONE and self.follower.goal is not goal):
+            self._head_for(self.follower.goal)  # of a room it is searched behind its door
         if (self.failure is None and not self.follower.done) or completed:
             self.failure = self._fault(events, clause if completed else None, goal, crossed)
             if completed and strayed and self.failure is None:

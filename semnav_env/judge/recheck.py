@@ -70,6 +70,8 @@ def recheck(
     path = _Path(recording, rules.success)
     last = 0
     for done, goal in enumerate(goals):
+        if done and wait_of(goals[done - 1]) > 0.0:
+            path.count_rest_from(last)
         met = _first(path.meets(goal, last), after=last)
         failure = _first_failure(path, floor_plan, goal, last, met, done + 1 == len(goals), rules)
         if failure is not None:
@@ -118,6 +120,11 @@ class _Path:
         rates = np.abs(recording.velocities[:, 2])
         moving = (recording.speeds >= rules.still_speed) | (rates >= rules.still_yaw_rate)
         self.standing = _lasting(~moving) * recording.period
+
+    def count_rest_from(self, row: int) -> None:
+        """Count the time at rest only from a row on, up to which the robot stood still as told."""
+        since = (np.arange(len(self.standing)) - row) * self.period
+        self.standing = np.where(since > 0.0, np.minimum(self.standing, since), self.standing)
 
     def crosses(self, door: Jambs) -> Mask:
         """At which steps the path crosses the line between two jambs, either way."""

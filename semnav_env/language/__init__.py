@@ -54,11 +54,7 @@ if TYPE_CHECKING:
     from semnav_env.language.canonical import read
     from semnav_env.language.encoding import decode, encode
     from semnav_env.language.errors import CommandError
-    from semnav_env.language.interpreters import (
-        Interpretation,
-        Interpreter,
-        ModelInterpreter,
-    )
+    from semnav_env.language.interpreters import Interpretation, Interpreter, ModelInterpreter
     from semnav_env.language.program import from_program, to_program
     from semnav_env.language.question import AmbiguousCommandError, Ask, Question
     from semnav_env.language.rewording import paraphrases
@@ -135,11 +131,7 @@ __getattr__ = lazy_names(
         ".canonical": ("read",),
         ".encoding": ("decode", "encode"),
         ".errors": ("CommandError",),
-        ".interpreters": (
-            "Interpretation",
-            "Interpreter",
-            "ModelInterpreter",
-        ),
+        ".interpreters": ("Interpretation", "Interpreter", "ModelInterpreter"),
         ".program": ("from_program", "to_program"),
         ".question": ("AmbiguousCommandError", "Ask", "Question"),
         ".rewording": ("paraphrases",),

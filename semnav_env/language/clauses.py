@@ -95,57 +95,23 @@ class Follow(Clause):
     past: bool = False
     along: Side | None = None
     untokened: ClassVar[tuple[str, ...]] = ("along",)
-    forms: ClassVar[tuple[Form, ...]] = (
-        form("follow", "follow", "hallway", (TokenVerb.FOLLOW,)),
+    forms: ClassVar[tuple[Form, ...]] = tuple(
         form(
-            "follow_for", "for {until}", "hallway for {until}", (TokenVerb.FOLLOW,), until=Distance
-        ),
-        form(
-            "follow_until",
-            "until {until}",
-            "hallway until {until}",
-            (TokenVerb.FOLLOW,),
-            until=(*LANDMARK, PlaceOffset),
-        ),
-        form(
-            *("follow_past", "past {until}", "hallway past {until}", (TokenVerb.PASS,)),
-            until=LANDMARK,
-            past=True,
-        ),
-        form(
-            *("follow_along", "follow along {along}", "hallway along {along}"),
-            (TokenVerb.FOLLOW,),
-            along=WALLS,
-            sampled=False,
-        ),
-        form(
-            "follow_along_for",
-            "for {until} along {along}",
-            "hallway along {along} for {until}",
-            (TokenVerb.FOLLOW,),
-            until=Distance,
-            along=WALLS,
-            sampled=False,
-        ),
-        form(
-            "follow_along_until",
-            "until {until} along {along}",
-            "hallway along {along} until {until}",
-            (TokenVerb.FOLLOW,),
-            until=(*LANDMARK, PlaceOffset),
-            along=WALLS,
-            sampled=False,
-        ),
-        form(
-            "follow_along_past",
-            "past {until} along {along}",
-            "hallway along {along} past {until}",
-            (TokenVerb.PASS,),
-            until=LANDMARK,
-            past=True,
-            along=WALLS,
-            sampled=False,
-        ),
+            f"follow{said}{how and '_'}{how}",
+            f"{f'{how} {{until}}' if how else 'follow'}{wall}",
+            f"hallway{wall}{f' {how} {{until}}' if how else ''}",
+            (TokenVerb.PASS if how == "past" else TokenVerb.FOLLOW,),
+            sampled=not wall,
+            **{"along": WALLS} if wall else {},
+            **until,
+        )
+        for said, wall in (("", ""), ("_along", " along {along}"))
+        for how, until in (
+            ("", {}),
+            ("for", {"until": Distance}),
+            ("until", {"until": (*LANDMARK, PlaceOffset)}),
+            ("past", {"until": LANDMARK, "past": True}),
+        )
     )
 
     def __post_init__(self) -> None:
@@ -218,17 +184,17 @@ class GoToDoor(Clause):
     door: DoorReference
     approach: Approach = Approach.THROUGH
     by_default: bool = field(default=False, compare=False, repr=False)
-    forms: ClassVar[tuple[Form, ...]] = (
-        form("through", "through {door}", "through {door}", (TokenVerb.GO_THROUGH,)),
-        form("to", "to {door}", "to {door}", (TokenVerb.GO_TO,), approach=Approach.TO),
+    forms: ClassVar[tuple[Form, ...]] = tuple(
         form(
-            "in",
-            "in {door}",
-            "in {door}",
-            (TokenVerb.GO_TO, 1),
-            approach=Approach.IN,
-            sampled=False,
-        ),
+            *(how, f"{how} {{door}}", f"{how} {{door}}", token),
+            approach=how,
+            sampled=how is not Approach.IN,
+        )
+        for how, token in (
+            (Approach.THROUGH, (TokenVerb.GO_THROUGH,)),
+            (Approach.TO, (TokenVerb.GO_TO,)),
+            (Approach.IN, (TokenVerb.GO_TO, 1)),
+        )
     )
 
 

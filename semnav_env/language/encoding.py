@@ -126,9 +126,7 @@ def _ordinal_token(ordinal: int) -> int:
 
 
 def decode(
-    tokens: ArrayLike,
-    rooms: Sequence[str] = (),
-    kinds: Sequence[type[Clause]] | None = None,
+    tokens: ArrayLike, rooms: Sequence[str] = (), kinds: Sequence[type[Clause]] | None = None
 ) -> Command:
     """The command of an array that `encode` made.
 

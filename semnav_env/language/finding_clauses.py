@@ -10,12 +10,18 @@ from semnav_env.language.declarations import ROOM, Form, TokenVerb, form
 from semnav_env.language.references import RoomReference
 
 
+class FindingClause(Clause):
+    """Base of the clauses to find people, on which a payload decides beside the robot's pose."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True, slots=True)
-class SearchHouse(Clause):
+class SearchHouse(FindingClause):
     """Look into every room and report every person that is found: "search the house".
 
-    Its token is "go to room" with the number 0: it needs no verb of its own, so agents that were
-    trained before keep their observations. That holds for the other clauses here, too.
+    Like those below it has the token of another verb, so agents trained before keep their
+    observations.
     """
 
     forms: ClassVar[tuple[Form, ...]] = (
@@ -27,7 +33,7 @@ class SearchHouse(Clause):
 
 
 @dataclass(frozen=True, slots=True)
-class SearchRoom(Clause):
+class SearchRoom(FindingClause):
     """Look at all the floor of a room and report the people in it: "search room 12".
 
     Attributes:
@@ -48,7 +54,7 @@ class SearchRoom(Clause):
 
 
 @dataclass(frozen=True, slots=True)
-class LookAround(Clause):
+class LookAround(FindingClause):
     """Turn on the spot once and look in every direction: "look around"."""
 
     forms: ClassVar[tuple[Form, ...]] = (
@@ -57,7 +63,7 @@ class LookAround(Clause):
 
 
 @dataclass(frozen=True, slots=True)
-class CallOut(Clause):
+class CallOut(FindingClause):
     """Stand still, call, and listen from where people answer: "call and listen"."""
 
     forms: ClassVar[tuple[Form, ...]] = (
@@ -66,7 +72,7 @@ class CallOut(Clause):
 
 
 @dataclass(frozen=True, slots=True)
-class GoToPerson(Clause):
+class GoToPerson(FindingClause):
     """Go to the nearest person that was found: "go to the person you found".
 
     People to whom the command has led already do not count.
@@ -78,11 +84,8 @@ class GoToPerson(Clause):
 
 
 @dataclass(frozen=True, slots=True)
-class AskName(Clause):
-    """Ask the person to whom the robot went for the name: "ask for the name".
-
-    Without such a person it goes to the nearest one that was found.
-    """
+class AskName(FindingClause):
+    """Ask the person to whom the robot went, or the nearest that was found: "ask for the name"."""
 
     forms: ClassVar[tuple[Form, ...]] = (
         form("ask_name", "ask", "ask", (TokenVerb.GO_TO, 3), sampled=False),

@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass
 from enum import StrEnum
 from numbers import Integral
-from typing import ClassVar, TypeAlias
+from typing import ClassVar
 
 from semnav_env.language.declarations import DOOR, ROOM, Form, Multiples, Spoken, form
 from semnav_features.validation import shown
@@ -275,8 +275,6 @@ class PlaceOffset(Spoken):
         if is_end and self.relation is Relation.AFTER:
             raise ValueError(f"there is nothing after {self.place}")
 
-
-Reference: TypeAlias = DoorReference | PlaceReference | RoomReference | Distance
 
 _NAME = re.compile(rf"(?=.{{1,{MAX_NAME}}}$)[a-z0-9]+(?:[ ._-][a-z0-9]+)*", re.ASCII)
 

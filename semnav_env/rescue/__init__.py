@@ -3,6 +3,7 @@
 from semnav_env.rescue.call_and_listen import CallAndListen
 from semnav_env.rescue.microphones import MicrophoneArray, MicrophoneSettings
 from semnav_env.rescue.outcome import SearchOutcome
+from semnav_env.rescue.person_finder import PersonFinder
 from semnav_env.rescue.person_map import PersonMap, PersonTrack
 from semnav_env.rescue.person_search import PersonSearch
 from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
@@ -14,6 +15,7 @@ __all__ = [
     "MicrophoneArray",
     "MicrophoneSettings",
     "PersonDetectorSettings",
+    "PersonFinder",
     "PersonMap",
     "PersonMapSettings",
     "PersonSearch",

@@ -12,7 +12,7 @@ from semnav_env.judge.tasks import AddedTerms, EpisodeRequest, RewardWeights, Ti
 from semnav_env.language import Command, SearchHouse
 from semnav_env.mind.observations import EntryObservation
 from semnav_env.rescue.people_entry import PeopleEntry
-from semnav_env.rescue.person_search import PersonSearch
+from semnav_env.rescue.person_finder import PersonFinder
 from semnav_env.vector import SemNavVectorEnv
 from semnav_env.world.dynamics import Dynamics
 
@@ -60,8 +60,10 @@ def search_and_rescue(observation: Any = "semantic", **options: Any) -> SemNavEn
     ## Description
     SPOT (or the wheelchair) is sent into a house that nobody can look into. It visits every room,
     inspects the floor from enough places, and reports where people are. The lidar cannot tell a
-    person on the floor from furniture; a camera with a person detector, `PersonSearch`, can, with
+    person on the floor from furniture; a camera with a person detector, `PersonFinder`, can, with
     errors. It is the mission of Mes 2021, made of `SemNavEnv` with the command "search the house".
+    Her robot's other actions are clauses, too: "search this room", "look around", "call and
+    listen", "go to the person you found", "ask for the name".
 
     ## Action Space
     As in `SemNav-v0`: `Box(-1, 1, (2,), float32)` for the wheelchair, `Box(-1, 1, (3,), float32)`
@@ -90,12 +92,13 @@ def search_and_rescue(observation: Any = "semantic", **options: Any) -> SemNavEn
       which it says that it has finished.
     - Truncation: after `max_seconds`, 1200 s of simulated time by default.
 
-    `info["search"]` says at the end what was covered, found and reported wrongly.
+    `info["search"]` says at the end what was covered, found and reported wrongly, and
+    `info["found"]` where people are believed to be, and what their names are.
 
     ## Arguments
     - observation: a mode, which gets the entry "people" beside its own, or an observation type.
     - options: arguments of `SemNavEnv`. Other defaults than there have task, dynamics (two
-      victims), payload (`PersonSearch`, whose settings are those of the detector), rewards and
+      victims), payload (`PersonFinder`, whose settings are those of the detector), rewards and
       max_seconds.
 
     ## Vectorized Environment
@@ -147,6 +150,6 @@ def _search_options(
         "dynamics": dynamics,
         "max_seconds": max_seconds,
         "rewards": rewards,
-        "payload": PersonSearch() if payload is None else payload,
+        "payload": PersonFinder() if payload is None else payload,
         **options,
     }

@@ -96,6 +96,22 @@ class MicrophoneArray:
         solid = [s.points for s in plan.surfaces if s.material in (Material.WALL, Material.GLASS)]
         self._walls = STRtree([LineString(ends) for points in solid for ends in pairwise(points)])
 
+    def near(self, pose: Pose, distance: float) -> list[int]:
+        """The people who can be talked to: within a distance, with no wall between; nearest first.
+
+        Args:
+            pose: true pose of the robot, world frame.
+            distance: metres.
+        """
+        lines = [LineString((pose[:2], place)) for place in self._people]
+        near = [k for k, line in enumerate(lines) if line.length <= distance]
+        open_ = [k for k in near if not len(self._walls.query(lines[k], "intersects"))]
+        return sorted(open_, key=lambda person: lines[person].length)
+
+    def can_answer(self, person: int) -> bool:
+        """Whether a person can answer."""
+        return bool(self._can_answer[person])
+
     def call(self, pose: Pose) -> list[VoiceAnswer]:
         """Call once; the answers that are heard.
 

@@ -36,12 +36,14 @@ class PersonTrack:
         log_odds: log odds of being a person.
         weight: inverse variance of the place, 1/m^2.
         reported: whether the robot has reported it.
+        name: that the person has said; None if it is not known.
     """
 
     place: Point
     log_odds: float
     weight: float
     reported: bool = False
+    name: str | None = None
 
     @property
     def probability(self) -> float:
@@ -99,6 +101,22 @@ class PersonMap:
         for track in new:
             track.reported = True
         return new
+
+    def hear(self, place: Point, std: float) -> PersonTrack | None:
+        """The track of a person whose voice comes from a place; None if there is no room for it.
+
+        Args:
+            place: odometry frame.
+            std: its standard deviation, metres.
+        """
+        near = min(self.tracks, key=lambda t: math.dist(t.place, place), default=None)
+        if near is not None and math.dist(near.place, place) <= self._settings.same_distance:
+            return near
+        if len(self.tracks) >= self._settings.capacity:
+            return None
+        track = PersonTrack(place, _log_odds(self._settings.heard), 1.0 / std**2)
+        self.tracks.append(track)
+        return track
 
     def _seen_at(self, place: Point, eye: Pose) -> PersonTrack | None:
         """The track of a detection, which may be a new one; None if there is no room for it."""

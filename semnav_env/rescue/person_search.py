@@ -69,7 +69,8 @@ class PersonSearch:
             start: its true pose, world frame.
             rng: of the episode.
         """
-        noise, mount = np.random.default_rng(rng.integers(2**62)), setup.robot.lidar_mount
+        self._seed, mount = int(rng.integers(2**62)), setup.robot.lidar_mount
+        noise = np.random.default_rng(self._seed)
         self.detector = PersonDetector(plan, self.settings, mount, noise)
         self.people = PersonMap(self.settings, self.map_settings, setup.lidar, mount)
         self.coverage = RoomCoverage(plan, setup.robot, self.settings)

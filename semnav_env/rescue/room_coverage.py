@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
+from shapely.geometry.base import BaseGeometry
 
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.rescue.visible_floor import CELL, floor_grid, visible_floor
@@ -44,6 +45,8 @@ class RoomCoverage:
             self.floor[shapely.contains_xy(region.polygon, *places)] = index
         for piece in plan.furniture.geometries:
             self.floor[shapely.contains_xy(piece, *places)] = len(regions)
+        solid = [shapely.contains_xy(piece, *places) for piece in plan.furniture.geometries]
+        self._bare = ~np.any(solid, axis=0) if solid else np.ones(self.grid.shape, np.bool_)
         self._can_be_seen = visible_floor(plan, robot, detector, self.grid)
         self._totals = self._counts(self._can_be_seen)
         self.shares = _shares(self._totals * 0.0, self._totals)
@@ -65,6 +68,12 @@ class RoomCoverage:
     def shares_of(self, cells: Cells) -> FloatArray:
         """Seen share of some cells of each room, 1 for a room without such cells, shape (n,)."""
         return _shares(self._counts(self._seen & cells), self._counts(cells))
+
+    def share_in(self, region: BaseGeometry) -> float:
+        """Seen share of the visible floor of any region, 1 for one without such floor."""
+        inside = shapely.contains_xy(region, self.grid.x, self.grid.y[:, None]) & self._bare
+        there = inside & (self._can_be_seen > 0)
+        return float(np.mean(self._seen[there] > 0)) if there.any() else 1.0
 
     @property
     def seen_cells(self) -> FloatArray:

@@ -93,6 +93,7 @@ class PersonMapSettings:
         drop: probability below which a track is forgotten.
         report_range: largest distance from which a person is reported, metres.
         capacity: largest number of tracks.
+        heard: probability that a person is where a voice comes from.
     """
 
     prior: Share = 0.2
@@ -103,6 +104,7 @@ class PersonMapSettings:
     drop: Share = 0.02
     report_range: Length = 2.0
     capacity: Count = 16
+    heard: Share = 0.95
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -116,11 +118,16 @@ class SearchRules:
         coverage: least seen share of the visible floor of each room.
         report_distance: largest distance of a report from the middle of a victim, metres.
         false_reports: largest number of false reports.
+        person_distance: largest distance of the robot from a person to whom it was to go, metres.
+        look_distance: largest distance from where "look around" began, metres: a body may need
+            room to turn, as for `SuccessRules.turn_distance`.
     """
 
     coverage: Share = 0.95
     report_distance: Length = 1.0
     false_reports: Annotated[int, Bounds(0, 1000)] = 0
+    person_distance: Length = 2.0
+    look_distance: Length = 1.5
 
     def __post_init__(self) -> None:
         check_fields(self)

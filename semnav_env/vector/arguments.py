@@ -9,7 +9,7 @@ from inspect import signature
 from typing import Any
 
 from semnav_env.env import SemNavEnv
-from semnav_env.language.suggest import did_you_mean
+from semnav_env.language.vocabulary.typos import did_you_mean
 from semnav_env.vector.member import TeamMember
 
 REMEMBERING = ("payload", "rewards")

@@ -14,6 +14,8 @@ COMMANDS = {
     "people.gif": "demo 'go through the second door on the left' --map office_cross"
     " --pose 3.0,9.1,0 --pedestrians 6 --model orca --changing-doors 0.3 --seed 3 --save {}",
     "search.gif": "demo 'search the house' --robot spot --save {}",
+    "finding_people.png": """demo 'search room "kitchen", go to the person you found and ask for"""
+    """ the name' --map villa_hall --robot spot --pose 1,1,1.57 --seed 3 --picture {}""",
     "heidelberg_hallway.png": "map show heidelberg_hallway --out {}",
     "office_cross.png": "map show office_cross --out {}",
     "villa_hall.png": "map show villa_hall --out {}",

@@ -21,8 +21,11 @@ from semnav_env.judge.episodes import (
 )
 from semnav_env.judge.metrics import METRIC_NAMES
 from semnav_env.language import parse
-from semnav_env.rescue.environment import MAX_SEARCH_SECONDS
+from semnav_env.language.finding_clauses import FindingClause
+from semnav_env.rescue.environment import MAX_SEARCH_SECONDS, search_and_rescue
 from semnav_env.robots import ROBOTS
+from semnav_env.world.dynamics import NO_DYNAMICS
+from semnav_env.world.dynamics.victims import victims_of
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.maps.placement import placement_error
 from semnav_features.frames import compose, relative, to_parent
@@ -84,6 +87,25 @@ def test_a_search_has_its_own_time_limit_and_two_victims() -> None:
     assert result.verdicts == ("incomplete",)
     assert SuiteJob(trial, 0).max_seconds == MAX_SEARCH_SECONDS
     assert SuiteJob(suite("villa")[0], 0).max_seconds == TRIAL_SECONDS
+
+
+def test_the_suite_of_finding_has_a_hundred_episodes_with_five_seeds() -> None:
+    trials = suite("villa_find")
+    assert len({trial.group for trial in trials}) == len(trials) == 20
+    assert usual_agent(trials) == "finder"
+    rooms = load_floor_plan("villa_hall").room_names
+    for trial in trials:
+        assert any(isinstance(c, FindingClause) for c in parse(trial.command, "en", rooms).clauses)
+
+
+@pytest.mark.parametrize("robot", ["spot", "wheelchair"])
+def test_the_person_to_be_found_lies_in_the_room_that_the_trial_names(robot: str) -> None:
+    env = search_and_rescue("raw", robot=robot, dynamics=NO_DYNAMICS)
+    for trial in suite("villa_find"):
+        plan = SuiteJob(trial, 1).options(env)["floor_plan"]
+        [person] = victims_of(plan)
+        room = next(each for each in plan.rooms if each.name == trial.person_in)
+        assert room.polygon.contains(person.centroid)
 
 
 def test_an_unknown_suite_is_an_error_that_lists_the_known_ones() -> None:

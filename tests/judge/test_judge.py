@@ -116,6 +116,17 @@ def test_standing_still_for_ten_seconds_is_stopping_short() -> None:
     assert judge.failure is Verdict.STOPPED_SHORT
 
 
+def test_standing_still_as_told_is_not_stopping_short_afterwards() -> None:
+    judge = judge_of("wait for 15 seconds and go through the first door on the right")
+    for _ in range(15 * 15 + 140):
+        judge.update(Motion(WEST, 0.0, 0.0, False, 1 / 15))
+    assert judge.completed == 1
+    assert not judge.over
+    for _ in range(20):
+        judge.update(Motion(WEST, 0.0, 0.0, False, 1 / 15))
+    assert judge.failure is Verdict.STOPPED_SHORT
+
+
 def test_the_route_leads_through_every_goal_and_is_shortest() -> None:
     judge = judge_of("turn right at the intersection and go through the first door on the left")
     assert judge.mission.route[0] == pytest.approx(WEST[:2])

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from semnav_env.language import Command, CommandError, parse, read
 from semnav_env.language.languages import english
 from semnav_env.language.normalise import MAX_CHARACTERS, MAX_WORDS
-from semnav_env.language.suggest import nearest
+from semnav_env.language.vocabulary.typos import nearest_word
 from tests.support.command_strategies import commands
 
 
@@ -58,10 +58,10 @@ LETTERS = st.text("abcdefghijklmnopqrstuvwxyz", max_size=8)
 @given(LETTERS, LETTERS)
 def test_a_word_closer_to_left_is_never_answered_with_right(word: str, other: str) -> None:
     known = ("left", "right", "around", other)
-    if nearest(word, known) == "right":
-        assert nearest(word, ("left",)) is None
-    if nearest(word, known) == "left":
-        assert nearest(word, ("right",)) is None
+    if nearest_word(word, known) == "right":
+        assert nearest_word(word, ("left",)) is None
+    if nearest_word(word, known) == "left":
+        assert nearest_word(word, ("right",)) is None
 
 
 @pytest.mark.parametrize(

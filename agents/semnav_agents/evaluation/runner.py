@@ -34,6 +34,7 @@ from semnav_env.rescue.environment import (
 from semnav_env.robots import RobotSpec
 from semnav_env.vector import SemNavVectorEnv
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
+from semnav_env.world.dynamics.victims import with_victims
 from semnav_env.world.maps import FloorPlan
 from semnav_env.world.maps.placement import MAX_DRAWS, has_room, placement_error
 from semnav_features.frames import Pose
@@ -60,6 +61,9 @@ class Extras:
 
 NO_EXTRAS = Extras()
 """No further outputs: only drive and measure."""
+
+FINDING_SECONDS = 900.0
+"""Time limit of a trial in which people are found as told, simulated seconds."""
 
 TRIAL_SECONDS, EPISODE_SECONDS = 120.0, 300.0
 """Time limits of a trial and of a frozen episode, whose routes are longer; simulated seconds."""
@@ -163,10 +167,15 @@ class SuiteJob:
         return isinstance(self.trial, Trial) and self.trial.is_search
 
     @property
+    def person_in(self) -> str:
+        """The room in which a person is to be found; empty for none."""
+        return self.trial.person_in if isinstance(self.trial, Trial) else ""
+
+    @property
     def max_seconds(self) -> float:
         """Time limit, simulated seconds."""
         if self.is_search:
-            return MAX_SEARCH_SECONDS
+            return FINDING_SECONDS if self.person_in else MAX_SEARCH_SECONDS
         return EPISODE_SECONDS if isinstance(self.trial, Episode) else TRIAL_SECONDS
 
     @property
@@ -179,8 +188,14 @@ class SuiteJob:
         if isinstance(self.trial, Episode):
             return {"episode": self.trial}
         drawn = env.plan_source.plan(self.trial.floor_plan)  # furniture keeps off the pose
-        pose = scattered(self.trial, drawn, env.robot, np.random.default_rng(self.seed))
-        told = {"command": self.trial.command, "floor_plan": self.trial.floor_plan}
+        rng = np.random.default_rng(self.seed)
+        pose = scattered(self.trial, drawn, env.robot, rng)
+        told: dict[str, Any] = {
+            "command": self.trial.command,
+            "floor_plan": self.trial.floor_plan,
+        }
+        if self.person_in:
+            told["floor_plan"] = with_victims(drawn, 1, env.robot, rng, pose[:2], self.person_in)
         return {**told, "pose": pose}
 
     def named_in_errors(self) -> AbstractContextManager[None]:
@@ -294,7 +309,8 @@ def _options(setup: SuiteSetup, job: SuiteJob) -> dict[str, Any]:
     """The options of an environment that the suite and the kind of a job decide."""
     dynamics = setup.dynamics
     if job.is_search:
-        dynamics = replace(dynamics, victims=dynamics.victims or VICTIMS)
+        victims = 0 if job.person_in else dynamics.victims or VICTIMS
+        dynamics = replace(dynamics, victims=victims)
     return {
         "robot": setup.robot,
         "lidar": setup.lidar,

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from functools import partial
 
 from semnav_env.judge.episodes import SPLITS, Episode
-from semnav_env.language.suggest import did_you_mean
+from semnav_env.language.vocabulary.typos import did_you_mean
 from semnav_features.frames import Pose
 
 SEARCH = "search the house"
-"""The command of a search; no other trial has it among its clauses."""
+"""The command of a search of a house."""
 
 
 @dataclass(frozen=True)
@@ -24,12 +24,15 @@ class Trial:
         command: what the robot is told.
         pose: pose around which the robot starts, world frame.
         scatter: largest deviation of the start in x, y (metres) and heading (radians).
+        person_in: name of the room on whose floor a person lies, where people are to be found as
+            told; empty for others.
     """
 
     floor_plan: str
     command: str
     pose: Pose
     scatter: Pose = (0.2, 0.2, 0.2)
+    person_in: str = ""
 
     @property
     def group(self) -> str:
@@ -39,7 +42,7 @@ class Trial:
     @property
     def is_search(self) -> bool:
         """Whether people are searched, which needs a person detector, victims and time."""
-        return self.command == SEARCH
+        return self.command == SEARCH or bool(self.person_in)
 
 
 def _trials(floor_plan: str, pose: Pose, *commands: str) -> tuple[Trial, ...]:
@@ -179,6 +182,70 @@ _VILLA_EXITS = (
     *_in_the_villa((4.8, 2.4, 0.0), "go out of the room"),
 )
 
+_SEARCH_KITCHEN = 'search room "kitchen"'
+_SEARCH_LIVING_ROOM = 'search room "living room"'
+_MEET, _ASK = "go to the person you found", "ask for the name"
+
+
+def _finding(room: str, pose: Pose, *commands: str) -> tuple[Trial, ...]:
+    return tuple(Trial("villa_hall", each, pose, person_in=room) for each in commands)
+
+
+_VILLA_FIND = (
+    *_finding(
+        "kitchen",
+        _UP_THE_SOUTH_ARM,
+        _SEARCH_KITCHEN,
+        f"{_SEARCH_KITCHEN} and {_MEET}",
+        f"{_SEARCH_KITCHEN}, {_MEET} and {_ASK}",
+        f"{_SEARCH_KITCHEN}, {_ASK} and go back to the start",
+    ),
+    *_finding(
+        "living room",
+        _DOWN_THE_SOUTH_ARM,
+        _SEARCH_LIVING_ROOM,
+        f"{_SEARCH_LIVING_ROOM}, {_MEET} and {_ASK}",
+        'look around, call and listen and go to room "living room"',
+    ),
+    *_finding(
+        "parents' bedroom",
+        _DOWN_THE_WEST_ARM,
+        'search room "parents bedroom"',
+        f'search room "parents bedroom", {_MEET} and {_ASK}',
+    ),
+    *_finding(
+        "daughter's bedroom",
+        _FROM_THE_WEST_END,
+        'search room "daughters bedroom"',
+        f"go through the first door on the left, search this room, {_MEET} and {_ASK}",
+    ),
+    *_finding(
+        "kitchen",
+        (1.5, -2.8, math.pi / 2),
+        "search this room and leave the room",
+        f"look around, {_MEET} and {_ASK}",
+        "call and listen and leave the room",
+    ),
+    *_finding(
+        "living room",
+        _IN_THE_LIVING_ROOM,
+        f"look around and {_ASK}",
+        "search this room, leave the room and turn left",
+    ),
+    *_finding(
+        "daughter's bedroom",
+        _UP_THE_WEST_ARM,
+        f"search the house, {_MEET} and {_ASK}",
+        f"search the house, {_ASK} and go back to the start",
+    ),
+    *_finding(
+        "living room",
+        _UP_THE_WEST_ARM,
+        'go to room "living room", look around and call and listen',
+        f"{_SEARCH_LIVING_ROOM}, leave the room and {_SEARCH_KITCHEN}",
+    ),
+)
+
 _VILLA_SEARCH = (
     *_in_the_villa(_UP_THE_SOUTH_ARM, SEARCH),
     *_in_the_villa(_DOWN_THE_SOUTH_ARM, SEARCH),
@@ -195,14 +262,16 @@ SUITES = {
     "villa_rooms": _VILLA_ROOMS,
     "villa_exits": _VILLA_EXITS,
     "villa_search": _VILLA_SEARCH,
+    "villa_find": _VILLA_FIND,
 }
 """The suites by name. Those of the villa are in the hall of Mes 2021."""
 
 JOINED = {
     "villa": ("villa_doors", "villa_turns", "villa_rooms", "villa_exits"),
-    "all": tuple(name for name in SUITES if name != "villa_search"),
+    "all": tuple(name for name in SUITES if name not in ("villa_search", "villa_find")),
 }
-"""Names of several suites at once. `villa_search` is in none: it needs an agent that can search."""
+"""Names of several suites at once. For `villa_search` and `villa_find`, which are in none, an agent
+must be able to search."""
 
 
 def suite(name: str) -> tuple[Trial, ...]:
@@ -220,5 +289,7 @@ def suite(name: str) -> tuple[Trial, ...]:
 
 def usual_agent(trials: Sequence[Trial | Episode]) -> str:
     """Name of the agent that drives them if none is named."""
-    searches = any(isinstance(each, Trial) and each.is_search for each in trials)
+    searches = [each for each in trials if isinstance(each, Trial) and each.is_search]
+    if any(each.person_in for each in searches):
+        return "finder"
     return "searcher" if searches else "scripted"

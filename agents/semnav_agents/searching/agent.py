@@ -36,6 +36,7 @@ from semnav_env.world.maps import FloorPlan
 from semnav_features.frames import (
     ORIGIN,
     FloatArray,
+    Point,
     Pose,
     compose,
     points_to_parent,
@@ -95,23 +96,27 @@ class Explorer:
         self._obstacles.reset()
         self._chart = self._new_chart(info)
         detector = self._detector
-        looker = Looker(self._pilot.robot, detector.field_of_view, detector.range_max)
-        self._searcher = Searcher(self._chart, looker)
+        self._looker = Looker(self._pilot.robot, detector.field_of_view, detector.range_max)
+        self._searcher = Searcher(self._chart, self._looker)
         self._steps = 0
         self._unseen: FloatArray = np.empty((0, 2))
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action; the robot stands still when nothing is left to inspect."""
-        pose, velocity = read_odometry(observation)
+        pose, _ = read_odometry(observation)
         self._see(pose, observation["scan"])
-        people = [
-            (to_parent(pose, each.place), each.probability, each.reported)
-            for each in read_people(observation)
-        ]
+        people = people_of(observation, pose)
         target = self._searcher.update(pose, people)
+        return self._drive(observation, target, careful=not self._searcher.stuck)
+
+    def _drive(
+        self, observation: Observation, target: Pose | None, *, careful: bool
+    ) -> NDArray[np.float32]:
+        """The action that leads to a pose; standing still if there is none."""
+        pose, velocity = read_odometry(observation)
         if target is None:
             return self._pilot.act(self._remembered, NO_DOORS, _stop(), pose, velocity)
-        self._pilot.driver.planner = STUCK_PLANNER if self._searcher.stuck else CAREFUL_PLANNER
+        self._pilot.driver.planner = CAREFUL_PLANNER if careful else STUCK_PLANNER
         goal = SeenGoal(GoalKind.REACH, relative(pose, target), None)
         return self._pilot.act(self._points(observation, pose), NO_DOORS, goal, pose, velocity)
 
@@ -161,8 +166,17 @@ class PlanSearcher(Explorer):
     def _new_chart(self, info: dict[str, Any]) -> SearchMap:
         if self._plan is None:
             raise ValueError("the searcher knows the plan: call read_plan before reset")
+        self._known_plan = self._plan
         self._house = HousePlan(self._plan, info["pose"])
         return self._house.chart(self.settings)
+
+
+def people_of(observation: Observation, pose: Pose) -> list[tuple[Point, float, bool]]:
+    """Place (odometry frame), probability and whether it is reported, of each possible person."""
+    return [
+        (to_parent(pose, each.place), each.probability, each.reported)
+        for each in read_people(observation)
+    ]
 
 
 def _stop() -> SeenGoal:

@@ -41,14 +41,16 @@ class Searcher:
     Args:
         chart: the map, which the agent updates.
         looker: body and detector.
+        room: number of the plan's only room that is searched; None for all, after which the robot
+            drives back.
 
     Attributes:
         target: the pose to drive to, odometry frame; None when the search is over.
         done: whether nothing is left to search; the robot then drives back to its start.
     """
 
-    def __init__(self, chart: SearchMap, looker: Looker) -> None:
-        self.chart, self._looker = chart, looker
+    def __init__(self, chart: SearchMap, looker: Looker, room: int | None = None) -> None:
+        self.chart, self._looker, self._room = chart, looker, room
         self.target: Pose | None = None
         self.done = False
         self._view: View | None = None
@@ -235,12 +237,18 @@ class Searcher:
                 return
             suspect = self._next_suspect(pose, people, near=False)
         self.done = self.target is None
+        if self._room is not None:
+            return
         if self.done and self._start is not None and math.dist(pose[:2], self._start[:2]) > HOME:
             self.target = self._start
 
     def _next_view(self, ways: Ways, pose: Pose) -> View | None:
         """The best view; smaller views are tried before another room and before the end."""
         s, rooms = self._settings, self.chart.rooms
+        if self._room is not None:
+            coarse = ViewGrid(s.candidate_spacing, s.rays, self._room)
+            fine = ViewGrid(s.fine_spacing, s.fine_rays, self._room, thorough=True)
+            return self._best(ways, pose, coarse) or self._best(ways, pose, fine)
         room = int(rooms[self.chart.grid.cell(pose[:2])])
         view = self._best(ways, pose, ViewGrid(s.candidate_spacing, s.rays))
         if view is not None and (room < 0 or room == rooms[self.chart.grid.cell(view.pose[:2])]):

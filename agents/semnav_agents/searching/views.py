@@ -73,7 +73,7 @@ class ViewGrid:
     Attributes:
         spacing: between places of the detector, metres.
         rays: directions in which the gain of a place is estimated.
-        room: number of the only room of the plan that is searched, from inside; None for all.
+        room: number of the only room of the plan that is searched, from inside it; None for all.
         thorough: whether a small gain counts in a small room.
     """
 
@@ -229,9 +229,9 @@ def _seconds(
     s, current = chart.settings, chart.rooms[chart.grid.cell(pose[:2])]
     elsewhere = (chart.rooms != current) & (current >= 0)
     factor = np.where(elsewhere, s.other_room, 1.0)
-    if grid.room is not None:
-        factor[chart.rooms != grid.room] = np.inf
     seconds = ways.costs / s.speed * factor + s.look_seconds
+    if grid.room is not None:
+        seconds[chart.rooms != grid.room] = np.inf
     rows, columns = np.ogrid[: seconds.shape[0], : seconds.shape[1]]
     for x, y, radius in refused:
         row, column = chart.grid.cell((x, y))

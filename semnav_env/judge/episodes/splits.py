@@ -10,7 +10,7 @@ from pathlib import Path
 
 from semnav_env.judge.episodes.episode import Episode, Expected
 from semnav_env.judge.episodes.files import read_episodes
-from semnav_env.language.suggest import did_you_mean
+from semnav_env.language.vocabulary.typos import did_you_mean
 from semnav_env.world.maps.generator.distributions import DISTRIBUTIONS
 from semnav_env.world.maps.generator.naming import office_name
 

@@ -10,7 +10,7 @@ import shapely
 from semnav_env.judge.routes.follow import crossings
 from semnav_env.judge.routes.route import Route, RouteError
 from semnav_env.language import Approach
-from semnav_env.language.suggest import did_you_mean
+from semnav_env.language.vocabulary.typos import did_you_mean
 from semnav_env.rules import GroundingRules
 from semnav_env.world.maps.floor_plan import FloorPlan, PlanDoor, Region
 from semnav_env.world.maps.geodesic import Geodesic

@@ -7,10 +7,7 @@ from semnav_env.language.corpora.measure import (
     judge,
     verdicts,
 )
-from semnav_env.language.corpora.sentences import (
-    Sentence,
-    load_sentences,
-)
+from semnav_env.language.corpora.sentences import Sentence, load_sentences
 
 __all__ = [
     "Count",

@@ -65,10 +65,7 @@ def verdicts(
 
 
 def judge(
-    sentence: Sentence,
-    rooms: Sequence[str],
-    understand: Understand,
-    language: str | None = None,
+    sentence: Sentence, rooms: Sequence[str], understand: Understand, language: str | None = None
 ) -> SentenceVerdict:
     """What becomes of one sentence."""
     try:
@@ -78,19 +75,18 @@ def judge(
         return SentenceVerdict(sentence, outcome, tuple(map(str, error.readings)))
     except CommandError as error:
         return SentenceVerdict(sentence, ParseOutcome.REFUSED, (error.summary,))
-    right = sentence.kind == "plain" or _is_right(command, sentence)
-    outcome = ParseOutcome.UNDERSTOOD if right else ParseOutcome.MISREAD
+    outcome = ParseOutcome.UNDERSTOOD if _is_right(command, sentence) else ParseOutcome.MISREAD
     return SentenceVerdict(sentence, outcome, (str(command),))
 
 
 def _asked(sentence: Sentence, readings: Sequence[Command]) -> ParseOutcome:
-    plain = sentence.kind == "plain"
-    right = plain or any(_is_right(each, sentence) for each in readings)
+    right = any(_is_right(each, sentence) for each in readings)
     return ParseOutcome.ASKED if right else ParseOutcome.ASKED_WRONGLY
 
 
 def _is_right(command: Command, sentence: Sentence) -> bool:
-    return normal(meaning_of(command)) in map(normal, sentence.meanings)
+    plain = sentence.kind == "plain"
+    return plain or normal(meaning_of(command)) in map(normal, sentence.meanings)
 
 
 def rooms_in(value: object) -> Iterator[str]:

@@ -106,10 +106,7 @@ class _Masking:
     """The words of a text that are masked so far."""
 
     def __init__(
-        self,
-        words: Sequence[str],
-        lexica: Sequence[Lexicon],
-        names: Mapping[tuple[str, ...], str],
+        self, words: Sequence[str], lexica: Sequence[Lexicon], names: Mapping[tuple[str, ...], str]
     ) -> None:
         self.words, self.lexica, self.names = words, lexica, names
         self.found: list[tuple[str, int]] = []

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from typing import TypeAlias
 
 from rapidfuzz.distance import OSA
 
@@ -12,6 +13,11 @@ from semnav_env.language.vocabulary.lexicon import Lexicon
 from semnav_env.language.vocabulary.numerals import read_number
 from semnav_env.language.vocabulary.room_words import ROOM_WORDS
 from semnav_env.language.vocabulary.typos import nearest_word
+
+Words: TypeAlias = Sequence[str]
+Lexica: TypeAlias = Sequence[Lexicon]
+Names: TypeAlias = Mapping[tuple[str, ...], str]
+"""The plain name of each room by the words that people say for it."""
 
 LONGEST_NAME = 6
 """The most words of the name of a room."""
@@ -34,7 +40,7 @@ TENS = range(20, 100, 10)
 _HALF_MINUTE = re.compile(r"half a minute|half minute|halbe minute|halben minute|halbminute")
 
 
-def number_at(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[float, int] | None:
+def number_at(words: Words, at: int, lexicon: Lexicon) -> tuple[float, int] | None:
     """The number at a word and the place behind it: in metres or seconds, where a unit follows.
 
     Metres are rounded to the next half, as a command has no others.
@@ -63,7 +69,7 @@ def number_at(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[float, i
     return value, stop
 
 
-def side_at(words: Sequence[str], at: int, lexica: Sequence[Lexicon]) -> tuple[Side, int] | None:
+def side_at(words: Words, at: int, lexica: Lexica) -> tuple[Side, int] | None:
     """The side that the words at a place name, and the place behind them."""
     for lexicon in lexica:
         if found := lexicon.find(words, at, "side"):
@@ -77,12 +83,7 @@ def side_at(words: Sequence[str], at: int, lexica: Sequence[Lexicon]) -> tuple[S
     return None if side is None else (side, at + 1)
 
 
-def room_at(
-    words: Sequence[str],
-    at: int,
-    names: Mapping[tuple[str, ...], str],
-    lexica: Sequence[Lexicon],
-) -> tuple[str, int] | None:
+def room_at(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str, int] | None:
     """The plain name of the room that the words at a place name, and the place behind them."""
     for stop in range(min(len(words), at + LONGEST_NAME), at, -1):
         name = names.get(tuple(words[at:stop]))
@@ -90,22 +91,13 @@ def room_at(
             return name, stop
     if words[at].startswith('"') and len(words[at]) > 2:
         return words[at].strip('"'), at + 1
-    if (
-        not names
-        and words[at] in ROOM_WORDS
-        and words[at + 1 : at + 2]
-        and words[at + 1][0].isdigit()
-    ):
-        return words[at + 1], at + 2  # any room is taken where none is known
+    number = words[at + 1 : at + 2]
+    if not names and words[at] in ROOM_WORDS and number and number[0][0].isdigit():
+        return number[0], at + 2  # any room is taken where none is known
     return _numbered(words, at, names, lexica) or _misspelt(words, at, names, lexica)
 
 
-def _numbered(
-    words: Sequence[str],
-    at: int,
-    names: Mapping[tuple[str, ...], str],
-    lexica: Sequence[Lexicon],
-) -> tuple[str, int] | None:
+def _numbered(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str, int] | None:
     """A room whose number is said in words: "room twenty one", "Raum eins null zwei"."""
     begins = words[at : at + 1]
     if not any(len(name) == 2 and name[0] == begins[0] and name[1].isdigit() for name in names):
@@ -121,12 +113,7 @@ def _numbered(
     return found
 
 
-def _misspelt(
-    words: Sequence[str],
-    at: int,
-    names: Mapping[tuple[str, ...], str],
-    lexica: Sequence[Lexicon],
-) -> tuple[str, int] | None:
+def _misspelt(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str, int] | None:
     """A room whose name has a slip, or is parted in another way: "libary", "bücher ei"."""
     for stop in range(min(len(words), at + 4), at, -1):
         said = "".join(words[at:stop])
@@ -144,7 +131,7 @@ def _misspelt(
     return None
 
 
-def _is_room_number(words: Sequence[str], at: int, stop: int) -> bool:
+def _is_room_number(words: Words, at: int, stop: int) -> bool:
     """Whether a number is a room's: "to 3.05", "take me to 214", but not "three doors"."""
     behind = words[stop : stop + 1]
     return (
@@ -155,11 +142,11 @@ def _is_room_number(words: Sequence[str], at: int, stop: int) -> bool:
     )
 
 
-def _is_number(words: Sequence[str], lexica: Sequence[Lexicon]) -> bool:
+def _is_number(words: Words, lexica: Lexica) -> bool:
     return any(read_number(words, 0, lexicon) for lexicon in lexica)
 
 
-def _is_known(word: str, lexica: Sequence[Lexicon]) -> bool:
+def _is_known(word: str, lexica: Lexica) -> bool:
     return any(word in lexicon.words for lexicon in lexica)
 
 

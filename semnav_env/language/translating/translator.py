@@ -12,11 +12,7 @@ from semnav_env.language.corpora.meanings import key_of
 from semnav_env.language.named_rooms import missing_room
 from semnav_env.language.translating.masking import MaskedText, masked
 from semnav_env.language.translating.network import TranslatorNetwork
-from semnav_env.language.translating.programs import (
-    UnsayableError,
-    command_of,
-    sayable,
-)
+from semnav_env.language.translating.programs import UnsayableError, command_of, sayable
 from semnav_env.language.translating.support import TextSupport
 
 MAX_TRANSLATED_WORDS = 90

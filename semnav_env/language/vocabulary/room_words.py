@@ -6,12 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from types import MappingProxyType
 
-from semnav_env.language.rooms import (
-    GERMAN_LETTERS,
-    plain_name,
-    spoken_names,
-    without_accents,
-)
+from semnav_env.language.rooms import GERMAN_LETTERS, plain_name, spoken_names, without_accents
 from semnav_env.language.words import pieces
 
 

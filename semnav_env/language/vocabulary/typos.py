@@ -6,6 +6,8 @@ from collections.abc import Iterable
 
 from rapidfuzz.distance import OSA
 
+from semnav_env.language.normalise import MAX_WORD_LENGTH
+
 MIN_LENGTH, LONG = 3, 7
 """The shortest word that is corrected, and the shortest in which two slips are, letters."""
 
@@ -36,3 +38,9 @@ def nearest_word(word: str, known: Iterable[str]) -> str | None:
         same_first,
         key=lambda each: (sorted(each) != sorted(word), set(each) != set(word), -len(each), each),
     )
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """What an error adds to its list of known words: "; did you mean 'left'?", or ""."""
+    found = nearest_word(word[:MAX_WORD_LENGTH], known)
+    return f"; did you mean {found!r}?" if found else ""

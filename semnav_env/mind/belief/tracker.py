@@ -32,7 +32,13 @@ from semnav_env.mind.belief.understand import (
     read_ranges_in,
     understand,
 )
-from semnav_env.mind.grounding.clause_progress import CLAUSE_PROGRESS, ON_WAY, goal_bytes, put_goal
+from semnav_env.mind.grounding.clause_progress import (
+    CLAUSE_DONE,
+    CLAUSE_PROGRESS,
+    ON_WAY,
+    goal_bytes,
+    put_goal,
+)
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.ways import KnownWays, Way
 from semnav_env.rules import Rules, with_doors_of
@@ -258,9 +264,10 @@ class BeliefTracker:
         looked = True
         if events & FIRST_SCAN:
             follower.start(self.scene(), pose)
-        elif not follower.think(events, self.scene, pose):
-            looked = bool(events & LOOK_DUE)
-            if looked:
+        else:
+            follower.think(events, self.scene, pose)
+            looked = bool(events & (CLAUSE_DONE | LOOK_DUE))
+            if looked and not events & CLAUSE_DONE:
                 follower.look(self.scene(), pose)
         if looked:
             note_look(self.senses)

@@ -12,6 +12,7 @@ import numpy as np
 from semnav_env.language import Command
 from semnav_env.language.clauses import GoBack, IfThere, Pace, Speed
 from semnav_env.language.command import reference_of
+from semnav_env.language.finding_clauses import SearchRoom
 from semnav_env.mind.grounding.clause_order import (
     after,
     comes_after_corridor,
@@ -85,6 +86,7 @@ class Follower:
     _lookouts: tuple[Pose, ...] = field(default=(), init=False, repr=False)
     _found: Goal | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
+    _inside: bool = field(default=False, init=False, repr=False)
     _trail: Trail = field(default_factory=lambda: Trail(ORIGIN), init=False, repr=False)
 
     def start(self, scene: Scene, pose: Pose) -> None:
@@ -98,6 +100,7 @@ class Follower:
             inspection_angle=self.rules.grounding.inspection_angle,
         )
         self.skipped, self._beside, self._entry = frozenset(), None, None
+        self._inside = False
         self._begin_clause(scene, pose, pose)
 
     @property
@@ -129,9 +132,7 @@ class Follower:
         if events & TRAIL_DUE:
             self._trail.note(pose)
             self._write(trail=self._trail.end)
-        if events & CLAUSE_DONE:
-            self._begin_next(scene(), pose)
-        return bool(events & CLAUSE_DONE)
+        return bool(events & CLAUSE_DONE) and self._begin_next(scene(), pose)
 
     def target(self, pose: Pose) -> Goal:
         """The target of a robot at a pose: the goal of the clause, or the next place on its way."""
@@ -165,8 +166,14 @@ class Follower:
             self._lead_to(StopGoal(pose, self.impossible))
 
     def skip_to_next(self, scene: Scene) -> None:
-        """Treat the active clause as done."""
+        """Treat the active clause, or the way into the room that it is to search, as done."""
         self._begin_next(scene, self.goal.next_begin)
+
+    @property
+    def leads_in(self) -> bool:
+        """Whether the goal is only to go into a room that is searched then."""
+        searches = not self.done and isinstance(self.command.clauses[self.active], SearchRoom)
+        return searches and isinstance(self.goal, PassGoal | ReachGoal)
 
     def _ground(self, scene: Scene, pose: Pose) -> Goal | Known[bool]:
         """The goal of the active clause, or whether its condition is met."""
@@ -196,11 +203,16 @@ class Follower:
             self._entry,
             self._lookouts,
             wall=wall_beside(self.command.clauses, self.active),
+            inside=self._inside or (self._way is not None and _is_there(self._way)),
             rules=self.rules,
         )
 
-    def _begin_next(self, scene: Scene, pose: Pose) -> None:
-        """Begin the next clause at the goal of the last one; counting then ignores the driving."""
+    def _begin_next(self, scene: Scene, pose: Pose) -> bool:
+        """Begin the next clause at the goal of the last one; counting then ignores the driving.
+
+        Where the last one has roamed, the next one begins where the robot is. Returns whether a
+        clause was completed, and not only the way into a room that is searched now.
+        """
         match self.goal:
             case ReachGoal(beside=beside, door=door):
                 self._beside = beside or door
@@ -208,10 +220,16 @@ class Follower:
                 self._beside, self._entry = None, passed
             case SeekGoal():
                 self._beside = None
+            case StopGoal(roams=True):
+                self._beside, self._entry = None, None
             case StopGoal():
                 pass  # it stays where the clause before led to
-        self._go_on(after(self.command.clauses, self.active))
-        self._begin_clause(scene, self.goal.next_begin, pose)
+        roamed = isinstance(self.goal, StopGoal) and self.goal.roams
+        self._inside = self.leads_in
+        if not self._inside:
+            self._go_on(after(self.command.clauses, self.active))
+        self._begin_clause(scene, pose if roamed else self.goal.next_begin, pose)
+        return not self._inside
 
     def _go_on(self, index: int) -> None:
         """Make a clause the active one; the clauses between are skipped."""
@@ -239,6 +257,8 @@ class Follower:
     def _way_from(self, begin: Pose, pose: Pose) -> Way | None:
         if isinstance(self.command.clauses[self.active], GoBack):
             return self._trail.back(pose)
+        if self._inside:
+            return None
         return self.guide(self.active, begin)
 
     def _lead_to(self, goal: Goal) -> None:
@@ -258,3 +278,8 @@ class Follower:
         other.__dict__.update(self.__dict__)
         other.progress, other._trail = self.progress.copy(), deepcopy(self._trail)
         return other
+
+
+def _is_there(way: Way) -> bool:
+    """Whether a way to a room begins in it."""
+    return way.door is None and way.places[0] == way.places[-1]

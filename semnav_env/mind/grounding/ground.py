@@ -18,7 +18,7 @@ from semnav_env.language.clauses import (
     Turn,
 )
 from semnav_env.language.command import reference_of
-from semnav_env.language.finding_clauses import SearchHouse
+from semnav_env.language.finding_clauses import FindingClause
 from semnav_env.language.references import ENTRY, DoorReference, PlaceOffset, RoomReference
 from semnav_env.mind.grounding.corridor_goals import follow_goal, turn_goal
 from semnav_env.mind.grounding.errors import GroundingError
@@ -140,9 +140,10 @@ def _goal_in_hallway(clause: Clause, situation: Situation) -> Goal:
             raise GroundingError(f"{clause}: a condition leads nowhere by itself")
         case Pace():
             raise GroundingError(f"{clause}: a pace leads nowhere by itself")
-        case SearchHouse():
-            rest = situation.rules.success.search_rest_seconds
-            return StopGoal(situation.begin, str(clause), rest, roams=True)
+        case FindingClause():
+            from semnav_env.mind.grounding.finding_goals import finding_goal  # here, as it is rare
+
+            return finding_goal(clause, situation)
         case Stop():
             return StopGoal(situation.begin, str(clause), float(clause.seconds))
         case GroundedClause():

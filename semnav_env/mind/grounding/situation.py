@@ -34,6 +34,7 @@ class Situation:
         lookouts: poses at which the robot has looked for the referent, in the order of time.
         back: whether `begin` is turned around, see `towards`.
         wall: the side along whose wall to keep; None for none.
+        inside: whether the robot has gone into the room that the clause names.
         rules: distances and tolerances.
     """
 
@@ -48,6 +49,7 @@ class Situation:
     lookouts: tuple[Pose, ...] = ()
     back: bool = False
     wall: Side | None = None
+    inside: bool = False
     rules: Rules = field(default=Rules(), repr=False)
 
     @cached_property

@@ -27,7 +27,12 @@ MAX_TRIES = 5
 
 
 def with_victims(
-    plan: FloorPlan, count: int, robot: RobotSpec, rng: np.random.Generator, keep: Point | None
+    plan: FloorPlan,
+    count: int,
+    robot: RobotSpec,
+    rng: np.random.Generator,
+    keep: Point | None,
+    room: str | None = None,
 ) -> FloorPlan:
     """The plan with people on the floor of rooms and open areas, and no way blocked.
 
@@ -37,6 +42,7 @@ def with_victims(
         robot: the body for which everything stays reachable, and which can come near each victim.
         rng: source of randomness.
         keep: start of the robot; no victim lies near it. None if it is not known.
+        room: name of the only room in which they lie; None for all.
 
     Raises:
         ValueError: there is no room for so many.
@@ -44,16 +50,18 @@ def with_victims(
     if count == 0:
         return plan
     for _ in range(MAX_TRIES):
-        if (laid := _with_all(plan, count, FurnitureMover(plan, robot, keep), rng)) is not None:
+        mover = FurnitureMover(plan, robot, keep)
+        if (laid := _with_all(plan, count, mover, rng, room)) is not None:
             return laid
     raise ValueError(f"{plan.name} has no free place for {count} people on the floor")
 
 
 def _with_all(
-    plan: FloorPlan, count: int, mover: FurnitureMover, rng: np.random.Generator
+    plan: FloorPlan, count: int, mover: FurnitureMover, rng: np.random.Generator, room: str | None
 ) -> FloorPlan | None:
     """The plan with all victims; None if the first ones left no place for the others."""
-    rooms = [region.polygon for region in (*plan.rooms, *plan.areas)]
+    regions = (*plan.rooms, *plan.areas)
+    rooms = [region.polygon for region in regions if room in (None, region.name)]
     ways = max(free_ways(plan, mover.half_lane), key=lambda way: way.area)
     places = [room.intersection(ways.buffer(VICTIM_DISTANCE)) for room in rooms]
     for _ in range(count):

@@ -1,0 +1,111 @@
+"""An agent that carries out all clauses, those to find people among them, in a house it knows."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from semnav_agents.base import Observation
+from semnav_agents.scripted import ScriptedAgent
+from semnav_agents.searching.agent import PlanSearcher, people_of
+from semnav_agents.searching.finding_tasks import FindingTask, LookTask, PersonTask, SearchTask
+from semnav_env.language import (
+    CLAUSE_FEATURES,
+    MAX_CLAUSES,
+    AskName,
+    Clause,
+    Command,
+    GoToPerson,
+    LookAround,
+    SearchHouse,
+    SearchRoom,
+    decode,
+)
+from semnav_env.mind.grounding.goal import GoalKind
+from semnav_env.mind.observations import (
+    EntryObservation,
+    ObservationType,
+    PaceEntry,
+    SeenGoal,
+    read_odometry,
+)
+from semnav_env.rescue.people_entry import PeopleEntry
+from semnav_env.robots.actions import shares_of
+from semnav_features.frames import Point, Pose
+
+FRONT = 0.5
+"""Distance ahead of the robot's middle, within its body, metres: of a robot in a doorway this lies
+in the room that it enters."""
+
+
+class Finder(PlanSearcher):
+    """Drives like `ScriptedAgent`, and finds people like `PlanSearcher`.
+
+    It hears the command by its tokens. It knows walls, doors and rooms of the plan, but neither
+    furniture nor people.
+    """
+
+    @property
+    def observation(self) -> str | ObservationType:
+        """All entries, the pace, and the people."""
+        return EntryObservation("all", (PaceEntry(), PeopleEntry()))
+
+    def reset(self, info: dict[str, Any]) -> None:
+        """Begin an episode with the body, the lidar and the detector of `info`."""
+        super().reset(info)
+        self._driver = ScriptedAgent()
+        self._driver.reset(info)
+        self._command: Command | None = None
+        self._under_way = -1
+        self._task: FindingTask | None = None
+        self._visited: list[Point] = []
+
+    def act(self, observation: Observation) -> NDArray[np.float32]:
+        """The next action."""
+        pose, _ = read_odometry(observation)
+        self._see(pose, observation["scan"])
+        task = self._current_task(observation, pose)
+        if task is None:
+            return self._driver.act(observation)
+        step = task.next_step(pose, people_of(observation, pose))
+        if step.yaw_rate:
+            return shares_of((0.0, 0.0, step.yaw_rate), self._pilot.robot)
+        return self._drive(observation, step.target, careful=step.careful)
+
+    def _current_task(self, observation: Observation, pose: Pose) -> FindingTask | None:
+        """The task of the clause that the robot believes to be active; None if it only drives."""
+        if self._command is None:
+            rooms = self._known_plan.room_names
+            tokens = observation["command"].reshape(MAX_CLAUSES, CLAUSE_FEATURES)
+            self._command = decode(tokens.astype(np.int64), rooms)
+        stops = SeenGoal.read(observation["goal"]).kind is GoalKind.STOP
+        active = observation["clause"]
+        number = int(np.argmax(active)) if stops and active.any() else -1
+        if number != self._under_way:
+            self._under_way = number
+            self._task = None if number < 0 else self._new_task(self._command.clauses[number], pose)
+        return self._task
+
+    def _new_task(self, clause: Clause, pose: Pose) -> FindingTask | None:
+        match clause:
+            case SearchHouse():
+                return SearchTask(self._chart, self._looker, None)
+            case SearchRoom():
+                return SearchTask(self._chart, self._looker, self._room_at(pose))
+            case LookAround():
+                return LookTask(self._chart, self._looker, pose)
+            case GoToPerson() | AskName():
+                again = isinstance(clause, AskName)
+                return PersonTask(self._chart, self._looker, self._visited, again=again)
+        return None
+
+    def _room_at(self, pose: Pose) -> int:
+        """The number of the room in which the robot is, or which it enters."""
+        x, y, heading = pose
+        front = x + FRONT * math.cos(heading), y + FRONT * math.sin(heading)
+        grid, rooms = self._chart.grid, self._chart.rooms
+        ahead, here = (int(rooms[grid.cell(place)]) for place in (front, (x, y)))
+        return ahead if ahead >= 0 else here

@@ -1,0 +1,215 @@
+"""What a robot does for a clause to find people: search a room, turn once, or go to somebody."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple, Protocol, TypeAlias
+
+import numpy as np
+
+from semnav_agents.searching.search_map import SearchMap
+from semnav_agents.searching.searcher import SAME_PERSON, Searcher
+from semnav_agents.searching.views import Looker, place_before
+from semnav_agents.searching.ways import ways_from
+from semnav_features.frames import Point, Pose, wrap_angle
+
+TURN_RATE = 1.0
+"""Yaw rate of a look around, rad/s."""
+
+TURN_MARGIN = 0.28
+"""Distance from everything solid beside the body that turns on the spot, metres: it comes to within
+0.2 m of the place to turn."""
+
+TURN_RADIUS = 1.2
+"""Largest distance of the place to turn from where the clause began, metres."""
+
+PATIENCE = 200
+"""Control periods after which the robot turns where it is, though it has not come to that place."""
+
+SURE = 0.9
+"""Probability from which on a possible person counts as found."""
+
+TALKING_RANGE = 1.8
+"""Distance within which a robot is with a person, metres: a little less than the judge's."""
+
+MOST_PLACES = 6
+"""Places before one person that are tried."""
+
+People: TypeAlias = list[tuple[Point, float, bool]]
+"""Place (odometry frame), probability and whether it is reported, of each possible person."""
+
+
+class FindingStep(NamedTuple):
+    """What to do in a control period: drive to a pose, or turn on the spot, or stand still.
+
+    Attributes:
+        target: pose to drive to, odometry frame; None to stay.
+        yaw_rate: of a turn on the spot, rad/s.
+        careful: whether to plan with a margin alone.
+    """
+
+    target: Pose | None = None
+    yaw_rate: float = 0.0
+    careful: bool = True
+
+
+class FindingTask(Protocol):
+    """A clause to find people, under way."""
+
+    def next_step(self, pose: Pose, people: People) -> FindingStep:
+        """What to do now, at a believed pose."""
+        ...
+
+
+class SearchTask:
+    """Searches one room of the plan, or the whole house.
+
+    Args:
+        chart: the map.
+        looker: body and detector.
+        room: number of the room; None for all.
+    """
+
+    def __init__(self, chart: SearchMap, looker: Looker, room: int | None) -> None:
+        self._searcher = Searcher(chart, looker, room)
+
+    def next_step(self, pose: Pose, people: People) -> FindingStep:
+        """See `FindingTask`."""
+        target = self._searcher.update(pose, people)
+        return FindingStep(target, careful=not self._searcher.stuck)
+
+
+class LookTask:
+    """Turns on the spot once, where there is room for the body to turn.
+
+    Args:
+        chart: the map.
+        looker: body and detector.
+        pose: where the clause began.
+    """
+
+    def __init__(self, chart: SearchMap, looker: Looker, pose: Pose) -> None:
+        self._place: Pose | None = _place_to_turn(chart, looker, pose)
+        self._patience = PATIENCE
+        self._tolerance = chart.settings.position_tolerance
+        self._turned, self._heading = 0.0, pose[2]
+
+    def next_step(self, pose: Pose, people: People) -> FindingStep:
+        """See `FindingTask`."""
+        del people
+        if self._place is not None:
+            self._patience -= 1
+            if math.dist(pose[:2], self._place[:2]) > self._tolerance and self._patience > 0:
+                return FindingStep(self._place)
+            self._place, self._heading = None, pose[2]
+        self._turned += abs(wrap_angle(pose[2] - self._heading))
+        self._heading = pose[2]
+        return FindingStep(yaw_rate=TURN_RATE) if self._turned < math.tau else FindingStep()
+
+
+class PersonTask:
+    """Goes to the nearest person that was found and was not gone to before.
+
+    Args:
+        chart: the map.
+        looker: body and detector.
+        visited: places of the people to whom the robot went; it adds one.
+        again: whether it may stay with the person to whom it went last.
+    """
+
+    def __init__(
+        self, chart: SearchMap, looker: Looker, visited: list[Point], *, again: bool
+    ) -> None:
+        self._chart, self._looker, self._visited = chart, looker, visited
+        self._again = again
+        self._person: Point | None = None
+        self._target: Pose | None = None
+        self._tried: list[Point] = []
+        self._waited = self._looked = 0
+        self._done = False
+        self._last: Pose | None = None
+
+    def next_step(self, pose: Pose, people: People) -> FindingStep:
+        """See `FindingTask`."""
+        if self._again and self._visited and _is_with(pose, self._visited[-1]):
+            self._done = True
+        if self._done:
+            return FindingStep()
+        if self._person is None:
+            self._person = self._nearest(pose, people)
+        if self._person is None:
+            return FindingStep()
+        near = [each for each in people if math.dist(each[0], self._person) < SAME_PERSON]
+        self._person = near[0][0] if near else self._person
+        if self._target is None:
+            self._choose(pose)
+        elif self._arrived(pose):
+            self._look(any(reported for _, _, reported in near))
+        elif self._stays(pose):
+            self._target = None
+        return FindingStep(self._target, careful=len(self._tried) < MOST_PLACES)
+
+    def _nearest(self, pose: Pose, people: People) -> Point | None:
+        found = [place for place, share, reported in people if reported or share >= SURE]
+        new = [p for p in found if all(math.dist(p, v) >= SAME_PERSON for v in self._visited)]
+        return min(new, key=lambda place: math.dist(place, pose[:2]), default=None)
+
+    def _choose(self, pose: Pose) -> None:
+        """Take the next place before the person."""
+        assert self._person is not None
+        half_width = self._looker.robot.width / 2 + 0.03
+        ways = ways_from(self._chart, pose[:2], half_width)
+        tried = self._tried if len(self._tried) < MOST_PLACES else []
+        self._target = place_before(self._chart, ways, self._looker, self._person, tried)
+        self._tried.append(self._person if self._target is None else self._target[:2])
+        self._waited = self._looked = 0
+
+    def _arrived(self, pose: Pose) -> bool:
+        assert self._target is not None
+        s = self._chart.settings
+        near = math.dist(pose[:2], self._target[:2]) < s.position_tolerance
+        return near and abs(wrap_angle(pose[2] - self._target[2])) < s.heading_tolerance
+
+    def _look(self, reported: bool) -> None:
+        """Stand before the person until it is reported, or for a while."""
+        assert self._person is not None
+        self._looked += 1
+        if reported:
+            self._visited.append(self._person)
+            self._done, self._target = True, None
+        elif self._looked > self._chart.settings.person_looks:
+            self._target = None
+
+    def _stays(self, pose: Pose) -> bool:
+        """Whether the robot has not moved for a while."""
+        last = self._last
+        moved = last is None or math.dist(last[:2], pose[:2]) > 0.1
+        if moved or (last is not None and abs(wrap_angle(last[2] - pose[2])) > 0.2):
+            self._last, self._waited = pose, 0
+        self._waited += 1
+        return self._waited > self._chart.settings.patience
+
+
+def _is_with(pose: Pose, person: Point) -> bool:
+    return math.dist(pose[:2], person) <= TALKING_RANGE
+
+
+def _place_to_turn(chart: SearchMap, looker: Looker, pose: Pose) -> Pose | None:
+    """The nearest place where the body can turn on the spot; None for where it is."""
+    robot = looker.robot
+    ways = ways_from(chart, pose[:2], robot.width / 2 + 0.03)
+    reach = math.hypot(robot.length / 2 + abs(robot.axle), robot.width / 2) + TURN_MARGIN
+    row, column = chart.grid.cell(pose[:2])
+    if ways.room[row, column] >= reach:
+        return None
+    cells = np.argwhere((ways.room >= reach) & np.isfinite(ways.costs))
+    if not len(cells):
+        return None
+    points = chart.grid.points(cells)
+    away = np.hypot(*(points - pose[:2]).T)
+    costs = np.where(away <= TURN_RADIUS, ways.costs[tuple(cells.T)], np.inf)
+    best = int(np.argmin(costs))
+    if not math.isfinite(costs[best]):
+        return None
+    x, y = points[best].tolist()
+    return x, y, math.atan2(y - pose[1], x - pose[0])
