@@ -28,6 +28,10 @@ STUDIES = CommandTable(
         "page": ("studies.page.command", "how soon the page of `semnav serve` moves its robot"),
         "places": ("studies.places.command", "corridors told from other places"),
         "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
+        "learning": (
+            "studies.learning.command",
+            "five ways of learning from words and memory, by steps",
+        ),
         "limits": ("studies.translating.limits", "show when it is best to act, to ask, to refuse"),
         "refine": ("studies.translating.refining", "let the translator learn from new authors"),
         "search": ("studies.search.command", "houses searched with their plan and without"),
