@@ -16,6 +16,7 @@ FIGURES = [
     "drift_success",
     "features_tables",
     "language",
+    "learning",
     "leaderboard",
     "licences",
     "lines",

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import torch
 from gymnasium.spaces import Box
+from numpy.typing import NDArray
 from stable_baselines3.common.policies import ActorCriticPolicy
 from torch import Tensor, nn
 
-from studies.learning.command_envs import ACTION_SIZE
+from studies.learning.command_envs import ACTION_SIZE, Array
 from studies.learning.demonstrations import Lesson, demonstrations, first_of, is_taught
 from studies.learning.heard_vector import LARGEST, SIZE
 from studies.learning.ppo import CLONED_LOG_STD
@@ -33,7 +35,7 @@ def train(seed: int, steps: int, folder: Path) -> Iterator[Learned]:
     for share in SHARES:
         end = int(share * steps)
         policy = cloned(seed, end, folder, steps)
-        yield Learned(end, lambda seen, _, policy=policy: act(policy, seen))
+        yield Learned(end, partial(_decide, policy))
 
 
 def cloned(seed: int, steps: int, folder: Path, all_steps: int) -> ActorCriticPolicy:
@@ -63,10 +65,12 @@ def teach(
     """Let a policy learn from lessons; returns the mean loss of the last pass."""
     taught = [is_taught(each) for each in lessons]
     vectors, actions, returns = (
-        torch.from_numpy(
-            np.concatenate([part[kept] for part, kept in zip(parts, taught, strict=True)])
+        _joined(parts, taught)
+        for parts in (
+            [each.vectors for each in lessons],
+            [each.actions for each in lessons],
+            [each.returns for each in lessons],
         )
-        for parts in ([each[k] for each in lessons] for k in range(3))
     )
     order = torch.Generator().manual_seed(seed)
     batches = max(1, len(vectors) // BATCH)
@@ -77,11 +81,17 @@ def teach(
         for part in torch.randperm(len(vectors), generator=order).chunk(batches)[:batches]:
             loss = _loss(policy, vectors[part], actions[part], returns[part])
             optimizer.zero_grad()
-            loss.backward()
+            torch.autograd.backward(loss)
             optimizer.step()
             schedule.step()
             losses.append(loss.item())
     return float(np.mean(losses))
+
+
+def _joined(parts: Sequence[Array], taught: Sequence[NDArray[np.bool_]]) -> Tensor:
+    """The rows that are taught, one lesson after the other."""
+    kept = [part[rows] for part, rows in zip(parts, taught, strict=True)]
+    return torch.from_numpy(np.concatenate(kept))
 
 
 def _loss(policy: ActorCriticPolicy, seen: Tensor, wanted: Tensor, returns: Tensor) -> Tensor:
@@ -97,7 +107,12 @@ def _loss(policy: ActorCriticPolicy, seen: Tensor, wanted: Tensor, returns: Tens
 
 
 @torch.no_grad()
-def act(policy: ActorCriticPolicy, seen: np.ndarray) -> np.ndarray:
+def act(policy: ActorCriticPolicy, seen: Array) -> Array:
     """The mean action."""
     hidden = policy.mlp_extractor.forward_actor(torch.from_numpy(seen))
-    return np.clip(policy.action_net(hidden).numpy(), -1.0, 1.0)
+    actions: Array = policy.action_net(hidden).numpy()
+    return np.clip(actions, -1.0, 1.0)
+
+
+def _decide(policy: ActorCriticPolicy, seen: Array, _: NDArray[np.bool_]) -> Array:
+    return act(policy, seen)

@@ -59,7 +59,7 @@ class CommandVecEnv(VecEnvWrapper):
     def reset(self) -> Array:
         """Begin episodes."""
         self._vectors.forget(np.ones(self.num_envs, bool))
-        self._seen = self.venv.reset()
+        self._seen: dict[str, NDArray[Any]] = self.venv.reset()  # type: ignore[assignment]
         return self._vectors.observe(self._seen)
 
     def step_async(self, actions: Array) -> None:
@@ -69,7 +69,8 @@ class CommandVecEnv(VecEnvWrapper):
 
     def step_wait(self) -> VecEnvStepReturn:
         """Wait for the step; a last observation is seen with the finger where it was."""
-        self._seen, rewards, over, infos = self.venv.step_wait()
+        seen, rewards, over, infos = self.venv.step_wait()
+        self._seen = seen  # type: ignore[assignment]
         last = {name: values.copy() for name, values in self._seen.items()}
         for k in np.flatnonzero(over).tolist():
             for name, entry in infos[k]["terminal_observation"].items():

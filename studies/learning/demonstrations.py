@@ -154,7 +154,8 @@ def is_taught(lesson: Lesson) -> NDArray[np.bool_]:
     """Which decisions of a lesson are learned from: not those in which the expert waits."""
     speed = np.abs(lesson.vectors[:, _VELOCITY]).max(axis=1)
     waits = np.maximum(speed, np.abs(lesson.actions[:, :2]).max(axis=1)) < STANDING
-    return ~waits | (lesson.actions[:, -1] > 0.0)
+    taught: NDArray[np.bool_] = ~waits | (lesson.actions[:, -1] > 0.0)
+    return taught
 
 
 _VELOCITY = slice(STATE_START, STATE_START + 3)

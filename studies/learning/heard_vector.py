@@ -95,7 +95,7 @@ class HeardVectors:
         odometry = observations["odometry"].astype(np.float64)
         self._times[np.hypot(*odometry[:, 4:6].T) > STANDING, 1] = 0.0
         frame = _Frames(odometry[:, :4], self._begin)
-        parts = (
+        parts: tuple[NDArray[Any], ...] = (
             self._words,
             *_doors(observations, frame),
             *_arms(observations, frame),
@@ -124,12 +124,18 @@ class HeardVectors:
         turned = frame.turned()
         hallway = observations["hallway"].astype(np.float64)
         start = observations["start"].astype(np.float64)
-        columns = (
+        columns: tuple[NDArray[np.float64], ...] = (
             odometry[:, 4:7],
-            *(_squash(here[:, 0]), turned),
-            *(_squash(there[:, 0]), turned * (1.0, -1.0)),
-            *(_squash(start[:, :2]), start[:, 2:]),
-            *(_squash(hallway[:, :2]), hallway[:, 2:4], _squash(hallway[:, 4:6]), hallway[:, 6:]),
+            _squash(here[:, 0]),
+            turned,
+            _squash(there[:, 0]),
+            turned * np.array((1.0, -1.0)),
+            _squash(start[:, :2]),
+            start[:, 2:],
+            _squash(hallway[:, :2]),
+            hallway[:, 2:4],
+            _squash(hallway[:, 4:6]),
+            hallway[:, 6:],
             np.minimum(self._times, MOST_SECONDS) / MOST_SECONDS,
         )
         return np.concatenate(columns, axis=1)
@@ -240,4 +246,5 @@ def _sectors(scan: NDArray[np.float32]) -> NDArray[np.float64]:
 
 def _squash(values: NDArray[Any]) -> NDArray[Any]:
     """Squashed by x / (1 + x): the direction is kept, and near things are resolved finely."""
-    return values / (1.0 + np.abs(values))
+    squashed: NDArray[Any] = values / (1.0 + np.abs(values))
+    return squashed

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
-import numpy as np
 import torch
+from numpy.typing import NDArray
 from stable_baselines3 import PPO
 from stable_baselines3.common.vec_env import VecEnv
+from torch import nn
 
-from studies.learning.command_envs import REPEAT, training_envs
+from studies.learning.command_envs import REPEAT, Array, training_envs
 from studies.learning.demonstrations import GAMMA
 from studies.learning.progress import Learned, points
 
@@ -31,9 +33,15 @@ before the robot had moved."""
 def train(seed: int, steps: int, folder: Path) -> Iterator[Learned]:
     """Learn from random weights; gives the policy after each part of the steps."""
     model = new_model(training_envs(ROBOTS), seed, RATE, LOG_STD)
-    with torch.no_grad():
-        model.policy.action_net.bias[-1] = RESTING_FINGER
+    rest_finger(model.policy.action_net)
     yield from reinforced(model, points(0, steps))
+
+
+@torch.no_grad()
+def rest_finger(action_net: nn.Module) -> None:
+    """Let the mean of the finger's action begin at `RESTING_FINGER`."""
+    assert isinstance(action_net, nn.Linear)
+    action_net.bias[-1] = RESTING_FINGER
 
 
 def new_model(envs: VecEnv, seed: int, rate: float, log_std: float) -> PPO:
@@ -61,6 +69,7 @@ def reinforced(model: PPO, ends: list[int], before: int = 0) -> Iterator[Learned
         yield Learned(before + REPEAT * model.num_timesteps, lambda seen, _: act(model, seen))
 
 
-def act(model: PPO, seen: np.ndarray) -> np.ndarray:
+def act(model: PPO, seen: Array) -> NDArray[Any]:
     """The mean action."""
-    return model.predict(seen, deterministic=True)[0]
+    actions: NDArray[Any] = model.predict(seen, deterministic=True)[0]
+    return actions

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
+from numpy.typing import NDArray
 from sb3_contrib import RecurrentPPO
 
-from studies.learning.command_envs import REPEAT, training_envs
+from studies.learning.command_envs import REPEAT, Array, training_envs
 from studies.learning.demonstrations import GAMMA
-from studies.learning.ppo import HORIZON, LOG_STD, MAX_KL, RATE, RESTING_FINGER, ROBOTS
+from studies.learning.ppo import HORIZON, LOG_STD, MAX_KL, RATE, ROBOTS, rest_finger
 from studies.learning.progress import Learned, points
 
 
@@ -37,8 +37,7 @@ def train(seed: int, steps: int, folder: Path) -> Iterator[Learned]:
         seed=seed,
         device="cpu",
     )
-    with torch.no_grad():
-        model.policy.action_net.bias[-1] = RESTING_FINGER
+    rest_finger(model.policy.action_net)
     for end in points(0, steps):
         model.learn(end // REPEAT - model.num_timesteps, reset_num_timesteps=False)
         yield Learned(REPEAT * model.num_timesteps, _Remembering(model))
@@ -48,9 +47,10 @@ class _Remembering:
     """The mean action, and the memory of the LSTM from one decision to the next."""
 
     def __init__(self, model: RecurrentPPO) -> None:
-        self._model, self._memory = model, None
+        self._model = model
+        self._memory: tuple[NDArray[Any], ...] | None = None
 
-    def __call__(self, seen: np.ndarray, begun: np.ndarray) -> Any:
+    def __call__(self, seen: Array, begun: NDArray[np.bool_]) -> Any:
         """Actions; robots that have begun an episode remember nothing."""
         actions, self._memory = self._model.predict(seen, self._memory, begun, deterministic=True)
         return actions
