@@ -15,6 +15,7 @@ FIGURES = [
     "drift",
     "drift_success",
     "features_tables",
+    "headroom",
     "language",
     "learning",
     "leaderboard",
