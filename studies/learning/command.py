@@ -18,10 +18,14 @@ from semnav_agents.evaluation.provenance import provenance
 from semnav_env.judge.episodes import evenly, load_episodes
 from semnav_features.writing import write_file
 from studies.learning.command_envs import ROBOT, measured
+from studies.learning.demonstrations import demonstrations
 from studies.learning.progress import Learned
 
 METHODS = ("ppo", "recurrent_ppo", "cloning", "cloning_ppo", "dagger")
 """Modules of this folder with a function `train`."""
+
+SHOWN = {"cloning", "cloning_ppo", "dagger"}
+"""Those that learn from demonstrations, which are driven before, once for all."""
 
 
 @dataclass(frozen=True)
@@ -53,6 +57,8 @@ class Arguments:
             raise ValueError(f"no method {unknown.pop()!r}; there are: {', '.join(METHODS)}")
         torch.set_num_threads(1)
         self.out.mkdir(parents=True, exist_ok=True)
+        if set(self.methods) & SHOWN:
+            demonstrations(self.steps, self.out)
         for seed in self.seeds:
             for method in self.methods:
                 file = self.out / f"{method}-{seed}.jsonl"
