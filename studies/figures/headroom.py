@@ -32,7 +32,7 @@ OPEN = 0.05
 
 
 def newest(rows: Iterable[Standing]) -> dict[tuple[str, str, str], Standing]:
-    """By split, body and agent: the row under the present rules, else the one with most episodes."""
+    """By split, body and agent: the newest rules before others, then most episodes."""
     found: dict[tuple[str, str, str], Standing] = {}
     for row in sorted(rows, key=lambda row: (row.rules != UNKNOWN, row.episodes)):
         found[row.split, row.robot, row.agent] = row
