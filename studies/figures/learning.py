@@ -151,7 +151,7 @@ def page(text: str) -> str:
 
 def draw(ax: Axes, rows: Sequence[Row], measure: str) -> None:
     """A measure over steps: the mean over seeds, and a band from the least to the greatest."""
-    halves = [row for row in last_rows(rows)[HALF]]
+    halves = last_rows(rows)[HALF]
     for method, (colour, name) in SHOWN.items():
         points: dict[int, list[float]] = defaultdict(list)
         for row in rows:
@@ -193,8 +193,8 @@ def main() -> None:
     figure.legend(
         *success.get_legend_handles_labels(), loc="outside lower center", ncols=3, fontsize=8
     )
-    n, split, seeds = rows[0]["n"], rows[0]["split"], len({row["seed"] for row in rows})
-    figure.suptitle(f"{n} episodes of {split}, {seeds} trainings each", fontsize=10)
+    n, split = rows[0]["n"], rows[0]["split"]
+    figure.suptitle(f"{n} episodes of {split}; mean and range over trainings", fontsize=10)
     FigureCanvasAgg(figure).print_png(IMAGES / "learning.png")
     PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
     print(f"wrote {IMAGES / 'learning.png'} and {PAGE}")
