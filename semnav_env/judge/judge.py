@@ -12,7 +12,7 @@ from semnav_env.judge.judge_state import Period
 from semnav_env.judge.mission import Mission
 from semnav_env.judge.reading_judge import ReadingJudge
 from semnav_env.judge.verdict import Verdict
-from semnav_env.language.clauses import SearchHouse
+from semnav_env.language.finding_clauses import SearchHouse
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import Goal
 from semnav_env.world.simulator.sensed import Motion

@@ -11,7 +11,8 @@ from itertools import product
 from string import Formatter
 from typing import Any, TypeAlias
 
-from semnav_env.language.clauses import CLAUSE_KINDS, Clause, IfThere
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
+from semnav_env.language.clauses import Clause, IfThere
 from semnav_env.language.command import MAX_CLAUSES, Command, Link
 from semnav_env.language.declarations import Multiples, Option, Spoken, field_types, open_fields
 from semnav_env.language.errors import CommandError

@@ -296,19 +296,6 @@ class BackUp(Clause):
 
 
 @dataclass(frozen=True, slots=True)
-class SearchHouse(Clause):
-    """Look into every room and report every person that is found: "search the house".
-
-    Its token is "go to room" with the number 0: it needs no verb of its own, so agents that were
-    trained before keep their observations.
-    """
-
-    forms: ClassVar[tuple[Form, ...]] = (
-        form("search", "search", "", (TokenVerb.GO_TO_ROOM, 0, ROOM), sampled=False),
-    )
-
-
-@dataclass(frozen=True, slots=True)
 class Stop(Clause):
     """Stand still: "stop", "wait for 5 seconds".
 
@@ -448,13 +435,3 @@ def _check_ahead(reference: object) -> None:
     """Refuse the door by which the robot came where something ahead is to be named."""
     if isinstance(reference, DoorReference) and reference.ordinal == ENTRY:
         raise ValueError(f"{reference} lies behind: one goes to it or through it, or faces it")
-
-
-CLAUSE_KINDS: dict[str, type[Clause]] = {
-    kind.__name__: kind
-    for kind in (
-        *(Follow, Turn, GoToDoor, GoToRoom, Leave, GoBack, BackUp),
-        *(SearchHouse, Stop, Pace, Face, IfThere),
-    )
-}
-"""The clauses of this package by their names."""

@@ -8,7 +8,8 @@ from enum import Enum
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from semnav_env.language.clauses import CLAUSE_KINDS, Clause, Follow, GoToRoom, IfThere, Pace
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
+from semnav_env.language.clauses import Clause, Follow, GoToRoom, IfThere, Pace
 from semnav_env.language.declarations import field_names
 from semnav_env.language.references import DoorReference, PlaceOffset, PlaceReference, RoomReference
 

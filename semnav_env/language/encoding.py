@@ -10,7 +10,8 @@ from typing import Any, TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from semnav_env.language.clauses import CLAUSE_KINDS, Clause, Turning
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
+from semnav_env.language.clauses import Clause, Turning
 from semnav_env.language.command import MAX_CLAUSES, Command
 from semnav_env.language.declarations import (
     Form,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import inspect
 from abc import ABC, abstractmethod
 
-from semnav_env.language.clauses import CLAUSE_KINDS, Clause
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
+from semnav_env.language.clauses import Clause
 from semnav_env.language.declarations import said_in_english
 
 

@@ -7,7 +7,7 @@ from enum import Enum
 from types import NoneType
 from typing import Any
 
-from semnav_env.language.clauses import CLAUSE_KINDS
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
 from semnav_env.language.command import Command
 from semnav_env.language.declarations import Spoken, field_names, field_types
 from semnav_env.language.own_clause import own_clause_kinds

@@ -8,7 +8,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from semnav_env.language.clauses import CLAUSE_KINDS, Clause, IfThere
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
+from semnav_env.language.clauses import Clause, IfThere
 from semnav_env.language.command import MAX_CLAUSES, Command
 from semnav_env.language.declarations import (
     Form,

@@ -21,8 +21,9 @@ TOKEN_TURNINGS = (None, Turning.LEFT, Turning.RIGHT, Turning.AROUND)
 """The first column is a `TokenVerb`, the second one an index into these; a turn without one is to
 face its referent.
 
-For `GO_TO` 1 means in the doorway, and for `GO_TO_ROOM` in front of the room. For `STOP` 1 and 2
-are no stop but a pace, slow and fast."""
+For `GO_TO` 1 means in the doorway, 2 to a person and 3 to ask one. For `GO_TO_ROOM` 1 means in
+front of the room and 2 to search it, or where the robot is. For `STOP` 1 and 2 are no stop but a
+pace, slow and fast. "Look around" is to turn around with `ROOM`, and "call" to stop with it."""
 
 CONDITION_CASES = ((False, False), (False, True), (True, False), (True, True))
 """The second column of a condition is an index into these pairs: whether it asks for something

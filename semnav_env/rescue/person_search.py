@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from semnav_env.judge.payload import PayloadMarks
-from semnav_env.language.clauses import Clause, SearchHouse
+from semnav_env.language.clauses import Clause
+from semnav_env.language.finding_clauses import SearchHouse
 from semnav_env.mind.belief import BeliefTracker
 from semnav_env.rescue.outcome import Report, SearchOutcome, judge_reports
 from semnav_env.rescue.person_detector import PersonDetector

@@ -25,8 +25,9 @@ from semnav_env.language.translating.network import (
 from semnav_env.networks.card import CARD_FILE, Card
 from semnav_env.networks.weights import save_weights
 from studies.corpora import author_of, learned_corpora
+from studies.translating.arrays import TextArrays
 from studies.translating.texts import TrainingText, authored, disturbed, generated, of_episodes
-from studies.translating.training import TranslatorTraining, arrays_of, trained
+from studies.translating.training import TranslatorTraining, encoded_texts, trained
 
 TEACHERS = 3
 
@@ -79,7 +80,7 @@ class Recipe:
         self, corpora: Sequence[Path], out: Path, teachers: Sequence[TranslatorNetwork] = ()
     ) -> None:
         """Train a translator on the texts of corpora, and write its files to a folder."""
-        texts = arrays_of(self.texts(corpora), self.training.shape)
+        texts = TextArrays.of(encoded_texts(self.texts(corpora)), self.training.shape)
         network = trained(texts, self.training, self.seed, teachers)
         write_translator(out, network, asdict(self) | {CORPORA: names_of(corpora)}, self.seed)
 

@@ -12,6 +12,14 @@ from semnav_env.language.words import pieces
 SYLLABLES = ("ba", "del", "ko", "mun", "ti", "gra", "sel", "po", "nig", "tur", "fle", "zan", "lok")
 """Of which unknown words are made."""
 
+FINDABLE = {
+    *("person", "people", "man", "woman", "child", "somebody", "someone", "anybody", "anyone"),
+    *("name", "ask", "call", "shout", "search", "scan", "personen", "leute", "mensch", "menschen"),
+    *("mann", "frau", "kind", "jemand", "jemanden", "frag", "frage", "fragen", "ruf", "rufe"),
+    *("rufen", "hör"),
+}
+"""Words of the lexicon for what a robot cannot see or do, which those who have it search use."""
+
 
 def infeasible(text: str, code: str, rng: np.random.Generator) -> str | None:
     """A text with a thing in the place of a noun or before it, or with its words shuffled.
@@ -45,5 +53,5 @@ def _thing(lexicon: Lexicon, rng: np.random.Generator) -> str:
     """A word for something that the robot cannot see, or one that nobody knows."""
     if rng.random() < 0.15:
         return "".join(SYLLABLES[int(k)] for k in rng.integers(len(SYLLABLES), size=3))
-    known = sorted(lexicon.of_class("beyond") - lexicon.words)
+    known = sorted(lexicon.of_class("beyond") - lexicon.words - FINDABLE)
     return known[int(rng.integers(len(known)))]

@@ -26,6 +26,14 @@ from semnav_env.language.clauses import (
 from semnav_env.language.command import Command
 from semnav_env.language.corpora.meanings import ENDS, meaning_of, normal, room_with_door
 from semnav_env.language.corpora.notation import Step, Steps
+from semnav_env.language.finding_clauses import (
+    AskName,
+    CallOut,
+    GoToPerson,
+    LookAround,
+    SearchHouse,
+    SearchRoom,
+)
 from semnav_env.language.references import (
     ENTRY,
     OTHER,
@@ -44,6 +52,16 @@ from semnav_env.language.references import (
 )
 from semnav_env.language.rooms import plain_name
 
+FINDING: dict[Step, Clause] = {
+    ("search", "house"): SearchHouse(),
+    ("search", "here"): SearchRoom(),
+    ("look",): LookAround(),
+    ("call",): CallOut(),
+    ("to", "person"): GoToPerson(),
+    ("ask",): AskName(),
+}
+"""The steps to find people that have no open field."""
+
 
 def command_of_meaning(steps: Steps) -> Command | None:
     """A command that means the same as the steps; None if there is none."""
@@ -55,6 +73,8 @@ def command_of_meaning(steps: Steps) -> Command | None:
 
 
 def _clauses(step: Step) -> list[Clause]:
+    if step in FINDING:
+        return [FINDING[step]]
     match step:
         case ("hallway",):
             return [Follow()]
@@ -109,6 +129,8 @@ def _clauses(step: Step) -> list[Clause]:
             return [BackUp(_distance(*distance))]
         case ("stop",):
             return [Stop()]
+        case ("search", ("room", name)):
+            return [SearchRoom(RoomReference(plain_name(name)))]
         case ("if", *_):
             return _condition(step)
     raise ValueError(f"{step!r} is no clause")

@@ -1,13 +1,12 @@
 """`python -m studies refine`: let the translator go on learning when there are new authors.
 
-It learns mostly from the authors who are new to it. What it says of a text is its own teacher, so
-that it forgets little (Li and Hoiem 2016).
+It learns mostly from the authors who are new to it. What it says of the texts that it knows is its
+own teacher, so that it forgets little (Li and Hoiem 2016).
 """
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from itertools import chain
 from pathlib import Path
 
 from semnav_env.language.translating.network import (
@@ -17,8 +16,9 @@ from semnav_env.language.translating.network import (
 )
 from semnav_env.networks.card import Card
 from studies.corpora import learned_corpora
+from studies.translating.arrays import TextArrays
 from studies.translating.command import CORPORA, Recipe, names_of, write_translator
-from studies.translating.training import TranslatorTraining, arrays_of, trained
+from studies.translating.training import TranslatorTraining, encoded_texts, trained
 
 NEW, KNOWN = Recipe(), Recipe(variants=2, generated=200)
 """What is made of the texts of new authors, and of those from whom it has learned before."""
@@ -53,8 +53,9 @@ class Arguments:
         new = [path for path in corpora if path not in known]
         if not new:
             raise ValueError(f"the translator in {self.begin} knows all authors already")
-        texts = arrays_of(chain(KNOWN.texts(known), NEW.of_authors(new)), begun.shape)
-        network = trained(texts, self.training, card.seed, [begun], begun)
+        before, after = encoded_texts(KNOWN.texts(known)), encoded_texts(NEW.of_authors(new))
+        texts = TextArrays.of([*before, *after], begun.shape)
+        network = trained(texts, self.training, card.seed, [begun], begun, len(before))
         step = {"new": names_of(new), "training": asdict(self.training)}
         refined = [*card.preset.get(REFINED, ()), step]
         preset = card.preset | {CORPORA: names_of(corpora), REFINED: refined}

@@ -46,6 +46,14 @@ JOINTS = {
 """Words between two texts that are said one after the other."""
 
 
+SUPERSEDED = {
+    *(("04_german", "d-de-159"), ("23_english", "twenty-third-en-195")),
+    *(("23_german", "twenty-third-de-195"), ("42_english", "fortysecond-en-279")),
+    *(("46_german", "fortysixth-de-207"), ("56_english", "en-080"), ("56_german", "de-079")),
+    ("56_english", "en-141"),
+}
+"""Files and names of texts that were infeasible before a robot could look for people."""
+
 JOINED = 0.35
 """Probability that another text follows, behind each text."""
 
@@ -74,7 +82,7 @@ def authored(path: Path) -> list[TrainingText]:
 
     Of a feasible one the first meaning that is a command counts.
     """
-    sentences = load_sentences(path)
+    sentences = [each for each in load_sentences(path) if (each.corpus, each.id) not in SUPERSEDED]
     rooms = tuple(dict.fromkeys(rooms_in(each.meanings for each in sentences)))
     return [_authored(each, rooms) for each in sentences if _is_readable(each.text)]
 

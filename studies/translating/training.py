@@ -2,7 +2,8 @@
 
 A network may also learn from others that have learned already, its teachers: what they say of a
 text together is a better measure of what it may mean than the one command that an author wrote
-(Hinton et al. 2015).
+(Hinton et al. 2015). They say nothing of a text that is new to them, which would leave the network
+as unsure of it as they are, nor of one whose meaning has a symbol that one of them does not know.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ from torch.nn import functional
 from semnav_env.language.translating.masking import NO_MARK
 from semnav_env.language.translating.network import TranslatorNetwork, TranslatorShape
 from semnav_features.checked_fields import Count, check_fields
-from studies.translating.arrays import NO_SYMBOL, TextArrays, TextBatch, encoded
+from studies.translating.arrays import NO_SYMBOL, EncodedText, TextArrays, TextBatch, encoded
 from studies.translating.texts import TrainingText
 from studies.translating.torch_network import TorchTranslator
 
@@ -28,7 +29,7 @@ LENGTH_GROUPS = 16
 """Groups of texts of similar length; each batch is drawn from one group."""
 
 OWN_WEIGHT = 0.5
-"""Weight of the authors' own meanings in the loss; what the teachers say has the rest."""
+"""Weight of the authors' own meanings in the loss of a text of which the teachers say something."""
 
 SHOWN = 500
 """Steps between two lines of the log."""
@@ -64,9 +65,9 @@ class TranslatorTraining:
         check_fields(self)
 
 
-def arrays_of(texts: Iterable[TrainingText], shape: TranslatorShape) -> TextArrays:
-    """The texts whose meaning can be said, as arrays."""
-    return TextArrays.of([each for t in texts if (each := encoded(t)) is not None], shape)
+def encoded_texts(texts: Iterable[TrainingText]) -> list[EncodedText]:
+    """The texts whose meaning can be said, encoded."""
+    return [each for text in texts if (each := encoded(text)) is not None]
 
 
 def trained(
@@ -75,6 +76,7 @@ def trained(
     seed: int,
     teachers: Sequence[TranslatorNetwork] = (),
     begun: TranslatorNetwork | None = None,
+    taught: float = math.inf,
 ) -> TranslatorNetwork:
     """A network that translates the texts.
 
@@ -83,8 +85,9 @@ def trained(
         settings: of the training.
         seed: of the weights and of what is drawn.
         teachers: networks whose probabilities are learned beside the texts' own meanings.
-        begun: a network of the same shape whose weights are the first ones; without it they are
-            drawn.
+        begun: a network of the same shape whose weights are the first ones, though it may know
+            fewer symbols; what it lacks is drawn.
+        taught: how many of the texts, the first ones, the teachers know; all by default.
     """
     torch.set_num_threads(1)  # a small network is slower with more, and its sums may differ
     torch.manual_seed(seed)
@@ -95,7 +98,7 @@ def trained(
         _copy(begun, model)
     model.to(device)
     known = [_teacher(each).to(device) for each in teachers]
-    descent = _Descent(model, known, texts.to(device), settings)
+    descent = _Descent(model, known, texts.to(device), settings, taught)
     start, losses = time.monotonic(), torch.zeros((), device=device)
     for step, (numbers, words, symbols) in enumerate(_draws(texts, settings, seed), 1):
         losses += descent.step(numbers.to(device), words, symbols, _pace(step, settings))
@@ -113,10 +116,11 @@ def _teacher(network: TranslatorNetwork) -> TorchTranslator:
 
 
 def _copy(network: TranslatorNetwork, model: TorchTranslator) -> None:
-    """Give a model the weights of a network."""
+    """Give a model the weights of a network; rows that only the model has stay."""
     with torch.no_grad():
         for name, tensor in model.named().items():
-            tensor.copy_(torch.from_numpy(network.tensors[name]))
+            known = torch.from_numpy(network.tensors[name])
+            tensor[: len(known)].copy_(known)
 
 
 def _draws(
@@ -159,8 +163,10 @@ class _Descent:
         teachers: Sequence[TorchTranslator],
         texts: TextArrays,
         settings: TranslatorTraining,
+        taught: float,
     ) -> None:
         self._model, self._teachers, self._texts, self._settings = model, teachers, texts, settings
+        self._taught = taught
         on_cuda = settings.device != "cpu"
         self._rate = torch.tensor(0.0, device=settings.device)
         self._optimizer = torch.optim.AdamW(
@@ -224,17 +230,20 @@ class _Descent:
         )
         seen = torch.rand(batch.marks.shape, device=limits.device) >= limits
         scores = self._model(batch, seen, said)
-        own: Tensor = functional.cross_entropy(
-            scores.flatten(0, 1), wanted.flatten(), ignore_index=NO_SYMBOL
+        own = functional.cross_entropy(
+            scores.transpose(1, 2), wanted, ignore_index=NO_SYMBOL, reduction="none"
         )
+        count = (wanted != NO_SYMBOL).sum()
         if not self._teachers:
-            return own
+            return own.sum() / count
+        known = min(each.shape.symbols for each in self._teachers)
+        is_taught = (wanted < known).all(dim=1) & (self._numbers < self._taught)
+        counts = (wanted != NO_SYMBOL) & is_taught[:, None]
         with torch.no_grad():
-            all_seen = torch.ones_like(seen)
-            shares = [each(batch, all_seen, said).softmax(dim=2) for each in self._teachers]
-            taught = torch.stack(shares).mean(dim=0)
-        missed = -(taught * scores.log_softmax(dim=2)).sum(dim=2)
-        counts = wanted != NO_SYMBOL
-        from_teachers = (missed * counts).sum() / counts.sum()
-        loss: Tensor = OWN_WEIGHT * own + (1.0 - OWN_WEIGHT) * from_teachers
+            all_seen, spoken = torch.ones_like(seen), said.clamp(max=known - 1)
+            shares = [each(batch, all_seen, spoken).softmax(dim=2) for each in self._teachers]
+            taught = torch.stack([each[..., :known] for each in shares]).mean(dim=0)
+        missed = -(taught * scores.log_softmax(dim=2)[..., :known]).sum(dim=2)
+        weight = torch.where(counts, OWN_WEIGHT, 1.0)
+        loss: Tensor = (weight * own + (1.0 - weight) * missed).sum() / count
         return loss

@@ -218,6 +218,23 @@ def test_a_door_is_entered_where_another_one_was_wrongly_seen_in_the_way():
     assert driver.path.crosses(door.start, door.end)
 
 
+@ROBOTS
+def test_a_long_way_through_the_unseen_is_not_taken_around_another_door(robot):
+    """A room that lies behind two doors is reached through both, and not around the building."""
+    sides = [(-2.0, y, 3.0, y) for y in (-0.8, 0.8)]
+    front = [(3.0, 5.0, 3.0, 0.5), (3.0, -0.5, 3.0, -5.0)]
+    points = points_of_segments(np.array([*sides, *front]))
+    across = points_of_segments(np.array([(3.0, -0.5, 3.0, 0.5)]))
+    door = Door((4.5, 1.5), (5.5, 1.5))
+    driver = Driver(robot)
+    for behind in (0.0, 1.0, 2.0):
+        driver.reset()
+        start = (behind, 0.0, 0.0)
+        driver.drive(points, target_behind(door, start[:2]), start, barriers=across)
+        assert driver.path.complete
+        assert driver.path.crosses((3.0, -0.5), (3.0, 0.5))
+
+
 @given(st.floats(-math.pi, math.pi), st.floats(0.8, 1.2), st.booleans(), st.sampled_from((1, -1)))
 def test_the_room_behind_a_door_is_open_at_the_door_alone(heading, width, swapped, side):
     """Its points keep off the gap, lie on the target's side of it, and reach both jambs."""

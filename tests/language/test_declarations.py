@@ -21,7 +21,7 @@ from semnav_env.language import (
     sample_command,
     to_program,
 )
-from semnav_env.language.clauses import CLAUSE_KINDS
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
 from semnav_env.language.command import reference_of
 from semnav_env.language.corpora import notation
 from semnav_env.language.corpora.meanings import meaning_of

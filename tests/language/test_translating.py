@@ -1,5 +1,7 @@
 """The learned translator: what it sees of a text, its symbols and its network."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -133,17 +135,24 @@ def test_the_network_says_the_same_as_that_of_torch() -> None:
         np.testing.assert_allclose(found, expected[count].numpy(), atol=1e-5)
 
 
-def briefly_trained(rate: float, begun: TranslatorNetwork | None = None) -> TranslatorNetwork:
-    """A small network after three steps on three texts."""
+def briefly_trained(
+    rate: float,
+    begun: TranslatorNetwork | None = None,
+    teachers: Sequence[TranslatorNetwork] = (),
+    taught: int = 9,
+) -> TranslatorNetwork:
+    """A small network after three steps on nine texts."""
     pytest.importorskip("torch")
+    from studies.translating.arrays import TextArrays
     from studies.translating.texts import TrainingText
-    from studies.translating.training import TranslatorTraining, arrays_of, trained
+    from studies.translating.training import TranslatorTraining, encoded_texts, trained
 
     shape = TranslatorShape(width=8, heads=2, layers=1, hidden=16, buckets=64, classes=32)
     settings = TranslatorTraining(steps=3, batch=4, rate=rate, warm_up=1, shape=shape)
     said = ("turn left", "go to the third door", "stop") * 3
-    texts = arrays_of([TrainingText(each, "en", (), (parse(each),)) for each in said], shape)
-    return trained(texts, settings, 7, begun=begun)
+    texts = [TrainingText(each, "en", (), (parse(each),)) for each in said]
+    arrays = TextArrays.of(encoded_texts(texts), shape)
+    return trained(arrays, settings, 7, teachers, begun, taught)
 
 
 def test_training_is_the_same_for_the_same_seed() -> None:
@@ -156,6 +165,16 @@ def test_a_network_that_goes_on_learning_begins_with_its_own_weights() -> None:
     after = briefly_trained(1e-9, begun)
     for name, weights in begun.tensors.items():
         np.testing.assert_allclose(after.tensors[name], weights, atol=1e-6)
+
+
+def test_teachers_say_nothing_of_texts_that_are_new_to_them() -> None:
+    teachers = (briefly_trained(1e-2),)
+    alone, new, known = (
+        briefly_trained(1e-3, None, *by).tensors for by in (((), 9), (teachers, 0), (teachers, 9))
+    )
+    for name, weights in alone.items():
+        np.testing.assert_allclose(new[name], weights, atol=1e-6)
+    assert any(abs(known[name] - alone[name]).max() > 1e-4 for name in alone)
 
 
 GOLDEN = {

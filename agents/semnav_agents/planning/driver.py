@@ -52,6 +52,10 @@ YIELD_DISTANCE, YIELD_SECONDS = 0.5, 1.2
 """What moves matters on the path up to this distance, and up to what is driven in this time, metres
 and seconds."""
 
+GATE_DETOUR = 6.0
+"""Length by which a path around barriers to a gate may exceed what `detour` allows, metres: the robot
+may have to turn in the hallway first. A longer one leads through what has not been seen."""
+
 EVASION_LENGTH = 1.5
 """Length by which a path around what moves may exceed what `detour` allows, metres: the robot may
 have to get clear first."""
@@ -292,8 +296,9 @@ class Driver:
 
         The first of these is taken that leads right: among the points alone; around barriers and
         the walls beside the gate; and, where the first misses the gate, around those walls alone,
-        for a barrier may be no door. Without a gate a way around barriers must be no longer than
-        `detour` allows; if there is none, the robot waits for one before it takes the first.
+        for a barrier may be no door. A way around barriers must be no longer than `detour` allows,
+        to a gate by `GATE_DETOUR` longer; without a gate the robot waits for such a way before it
+        takes the first.
         """
         path = plan(points, start, target, self.robot, self.planner)
         beside = NO_POINTS if target.gate is None else room_behind(target.gate, target.pose)
@@ -302,7 +307,7 @@ class Driver:
         if self._heads_right(path, target, closed):
             self._barred = 0
             return path
-        longest = self.detour * path.length if target.gate is None else math.inf
+        longest = self.detour * path.length + (GATE_DETOUR if target.gate is not None else 0.0)
         around = plan(np.vstack((points, closed)), start, target, self.robot, self.planner)
         if self._leads(around, target, barriers) and around.length < longest:
             self._heeds_barriers = True

@@ -23,6 +23,8 @@ The equivalences, each true by the rules of docs/concepts/commands.md:
 16. "through door(entry)" and "leave door(entry)" are "leave".
 17. "hallway past P; hallway for 2 m" is "hallway until 2 m after P".
 18. Metres are driven to the next half.
+19. "room(kitchen); search here" is "search room(kitchen)".
+20. "to person; ask" is "ask", which leads to a person.
 """
 
 from __future__ import annotations
@@ -187,6 +189,10 @@ def _append(found: list[Step], step: Step) -> None:
             found[-1:] = [("hallway", "until", ("offset", tuple(distance), "after", place))]
         case ("to" | "in", _), ("stop",):
             pass
+        case ("room", _) as room, ("search", "here"):
+            found[-1:] = [("search", room)]
+        case ("to", "person"), ("ask",):
+            found[-1:] = [step]
         case ("stop",), ("wait", _):
             found[-1:] = [step]
         case ("wait", float(first)), ("wait", seconds):

@@ -13,7 +13,8 @@ from enum import StrEnum
 from functools import cache
 from typing import Any, TypeAlias
 
-from semnav_env.language.clauses import CLAUSE_KINDS, IfThere
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
+from semnav_env.language.clauses import IfThere
 from semnav_env.language.command import Command
 from semnav_env.language.declarations import (
     Multiples,
@@ -105,8 +106,10 @@ def _step(text: str) -> Step:
             read_meaning(otherwise) if otherwise else (),
         )
     match text.split(" ", 1):
-        case [verb] if verb in {*_verbs(None), "cross"}:
-            return (verb,)
+        case ["turn", rest]:
+            return _turn(rest)
+        case parts if text in {*_whole_steps(), "cross"}:
+            return tuple(parts)
         case ["hallway", rest] if along := re.fullmatch(r"along (left|right)(?: (.+))?", rest):
             return ("along", along[1], *_step(f"hallway {along[2] or ''}".strip())[1:])
         case ["hallway", rest] if rest.startswith("for "):
@@ -114,8 +117,6 @@ def _step(text: str) -> Step:
         case ["hallway", rest] if rest.startswith(("until ", "past ")):
             relation, place = rest.split(" ", 1)
             return ("hallway", relation, read_place(place))
-        case ["turn", rest]:
-            return _turn(rest)
         case ["back", rest] if rest.startswith("to "):
             return ("back", read_place(rest[3:]))
         case ["face", rest] if wall := re.fullmatch(r"wall (\w+)", rest):
@@ -130,17 +131,21 @@ def _step(text: str) -> Step:
 
 
 @cache
-def _verbs(followed_by: type | None) -> frozenset[str]:
-    """The words of declared steps that are one word, followed by nothing, a place or a number."""
+def _whole_steps() -> frozenset[str]:
+    """The declared steps that have no open field."""
+    steps = (form.step for kind in CLAUSE_KINDS.values() for form in kind.forms)
+    return frozenset(step for step in steps if "{" not in step)
+
+
+@cache
+def _verbs(followed_by: type) -> frozenset[str]:
+    """The first words of declared steps behind which stands a place, or a number."""
     found = set()
     for kind in CLAUSE_KINDS.values():
         for form, options in open_fields(kind):
             verb, _, rest = form.step.partition(" ")
-            what = next(iter(options.get(rest.strip("{}"), ())), rest or None)
-            is_class = isinstance(what, type) and issubclass(what, Spoken)
-            if (
-                Spoken if is_class else Multiples if isinstance(what, Multiples) else what
-            ) is followed_by:
+            what = next(iter(options.get(rest.strip("{}"), ())), None)
+            if issubclass(what if isinstance(what, type) else type(what), followed_by):
                 found.add(verb)
     return frozenset(found)
 

@@ -44,6 +44,9 @@ SHORTEST, LONGEST = 3, 5
 MAX_SYMBOLS = 48
 """The most symbols that are said; eight clauses need no more than that."""
 
+NOW_KNOWN = len(SYMBOLS)
+"""How many symbols a network learns now."""
+
 UNLIKELY = 7.0
 """A beginning whose probability is less than that of a whole by this power of e is given up."""
 
@@ -58,6 +61,7 @@ class TranslatorShape(TransformerSettings):
             2021).
         buckets: rows of the table of n-grams.
         classes: rows of the table of word classes.
+        symbols: how many of `SYMBOLS`, the first ones, it knows and may say.
     """
 
     KIND = "translator"
@@ -65,6 +69,7 @@ class TranslatorShape(TransformerSettings):
     decoder_layers: Count = 2
     buckets: Count = 8192
     classes: Count = 1024
+    symbols: Count = NOW_KNOWN
 
     def tensors(self) -> Shapes:
         """The shape of every tensor by name; weights are (outputs, inputs)."""
@@ -73,7 +78,7 @@ class TranslatorShape(TransformerSettings):
             "grams": (self.buckets, d),
             "classes": (self.classes, d),
             "marks": (MARKS, d),
-            "symbols": (len(SYMBOLS), d),
+            "symbols": (self.symbols, d),
         }
         encoder = [f"encode.{k}" for k in range(self.layers)]
         decoder = [f"decode.{k}" for k in range(self.decoder_layers)]
@@ -83,7 +88,7 @@ class TranslatorShape(TransformerSettings):
         for block in decoder:
             shapes |= _block(f"{block}.cross", d)
         shapes |= norm_shapes("encoded", d) | norm_shapes("decoded", d)
-        return shapes | linear_shapes("say", d, len(SYMBOLS))
+        return shapes | linear_shapes("say", d, self.symbols)
 
 
 def _block(name: str, d: int) -> Shapes:
@@ -152,9 +157,9 @@ class TranslatorNetwork:
         Args:
             encoded: the words, see `encode`.
             count: how many, and the width of the beam.
-            allowed: which symbols may be said.
+            allowed: which of `SYMBOLS` may be said; those that it does not know are not.
         """
-        unsaid = np.where(allowed, 0.0, -np.inf)
+        unsaid = np.where(allowed[: self.shape.symbols], 0.0, -np.inf)
         beams = Beams(self, encoded)
         live: list[tuple[float, list[int]]] = [(0.0, [SYMBOLS.index(START)])]
         done: list[tuple[float, list[int]]] = []

@@ -7,7 +7,8 @@ from enum import StrEnum
 from itertools import groupby, islice
 from typing import Any, TypeAlias, TypeVar
 
-from semnav_env.language.clauses import CLAUSE_KINDS, MAX_SECONDS, Clause, Stop, Turning, waits_of
+from semnav_env.language.clause_kinds import CLAUSE_KINDS
+from semnav_env.language.clauses import MAX_SECONDS, Clause, Stop, Turning, waits_of
 from semnav_env.language.command import MAX_CLAUSES, Command
 from semnav_env.language.declarations import Multiples, Option, Spoken, form_of, open_fields
 from semnav_env.language.references import ENTRY, Place, Side, Unit
@@ -44,11 +45,12 @@ SYMBOLS = (
     *("before", "after", "slow", "fast"),
     *("door", *(place.value for place in Place), *ROOM_SYMBOLS, *Unit),
     *(*SIDE_SYMBOLS, *_OTHER_SIDES, *VALUE_SYMBOLS, *_LITERALS, _FROM_END, *_OPEN_SIDES),
+    *("all", "here", "within", "look", "call", "person", "ask"),
 )
 """The symbols of the network; a command is a list of symbols between `START` and `END`.
 
-The bundled weights know them by their positions, so none may be removed or moved. A clause with
-another symbol in its form has no symbols for these weights.
+Weights know them by their positions, so none may be removed or moved; new ones come last. Weights
+from before say only those that they know (`TranslatorShape.symbols`).
 """
 
 

@@ -14,11 +14,11 @@ from semnav_env.language.clauses import (
     IfThere,
     Leave,
     Pace,
-    SearchHouse,
     Stop,
     Turn,
 )
 from semnav_env.language.command import reference_of
+from semnav_env.language.finding_clauses import SearchHouse
 from semnav_env.language.references import ENTRY, DoorReference, PlaceOffset, RoomReference
 from semnav_env.mind.grounding.corridor_goals import follow_goal, turn_goal
 from semnav_env.mind.grounding.errors import GroundingError
