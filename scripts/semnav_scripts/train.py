@@ -15,6 +15,7 @@ from typing import Literal
 from tyro.conf import Positional
 
 from semnav_agents.hearing.presets import HEARING_PRESETS
+from semnav_agents.learning.cost import noted_cost
 from semnav_agents.learning.files import CURVES_FOLDER
 from semnav_agents.learning.presets import Preset, preset
 from semnav_agents.learning.reports import TrainingReport
@@ -65,9 +66,10 @@ class Arguments:
         folder.parent.mkdir(parents=True, exist_ok=True)
         with sole_writer(folder):
             self._check_unused(folder)
-            if wanted is None:
-                return train_hearing(self.preset, folder, self.seed, self.minutes)
-            return self._train(wanted, folder)
+            with noted_cost(folder):
+                if wanted is None:
+                    return train_hearing(self.preset, folder, self.seed, self.minutes)
+                return self._train(wanted, folder)
 
     def _train(self, wanted: Preset, folder: Path) -> int:
         trainer = self._trainer(wanted, folder)

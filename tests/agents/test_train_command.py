@@ -1,5 +1,6 @@
 """`semnav train`: what it makes, refuses and saves."""
 
+import json
 import os
 import signal
 import subprocess
@@ -14,6 +15,7 @@ pytest.importorskip("stable_baselines3", reason='needs the extra "rl"')
 pytest.importorskip("torch", reason='needs the extra "rl"')
 
 from semnav_agents.learning.cloning import EPOCHS
+from semnav_agents.learning.cost import COST_FILE
 from semnav_agents.learning.files import TRAINING_FILE
 from semnav_agents.learning.policy import PolicySettings
 from semnav_agents.learning.presets import PRESETS
@@ -51,6 +53,16 @@ def test_train_makes_an_agent_that_evaluate_and_demo_can_run(capsys, tmp_path):
     code, text, _ = run(capsys, "demo", *words, "--json")
     assert code in (0, 1)
     assert '"success"' in text
+
+
+@pytest.mark.usefixtures("tiny")
+def test_a_training_notes_what_each_session_cost(capsys, tmp_path):
+    run(capsys, "train", "tiny", "--out", tmp_path, "--steps", 0)
+    run(capsys, "train", "tiny", "--out", tmp_path, "--steps", 64, "--resume")
+    rows = [json.loads(line) for line in (tmp_path / COST_FILE).read_text().splitlines()]
+    assert len(rows) == 2
+    assert all(row["seconds"] > 0.0 and row["cpu_seconds"] > 0.0 for row in rows)
+    assert all(row["processor"] and row["rules"] and row["version"] for row in rows)
 
 
 @pytest.mark.usefixtures("tiny")

@@ -4,6 +4,7 @@ import errno
 import json
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import time
@@ -167,17 +168,20 @@ sys.exit(main(["train", "long", "--out", sys.argv[1], "--steps", sys.argv[2], *s
 
 @pytest.mark.parametrize("kills", [2, pytest.param(20, marks=pytest.mark.slow)])
 def test_a_training_that_is_killed_at_random_moments_learns_the_same(tmp_path, kills):
-    """At most a stretch is lost with each kill, so training gets on whatever happens."""
+    """By SIGTERM and SIGKILL in turn, as schedulers of clusters do it.
+
+    At most a stretch is lost with each kill, so training gets on whatever happens.
+    """
     rng, stretch = np.random.default_rng(kills), 3 * ROLLOUT
     total, reached, folder = 4 * kills * stretch, 0, tmp_path / "killed"
-    for _ in range(kills):
+    for number in range(kills):
         resume = ["--resume"] if (folder / CARD_FILE).exists() else []
         words = [sys.executable, "-c", TRAIN_LONG, folder, str(total), *resume]
         running = subprocess.Popen(list(map(str, words)), cwd=ROOT, stderr=subprocess.DEVNULL)
         while not resume and not (folder / CARD_FILE).exists():
             time.sleep(0.01)
         time.sleep(rng.uniform(0.0, 8.0))
-        running.kill()
+        running.send_signal((signal.SIGTERM, signal.SIGKILL)[number % 2])
         running.wait()
         now = Trainer.resume(LONG, folder).steps
         assert now >= reached
