@@ -87,6 +87,7 @@ class PersonFinder(PersonSearch):
     """
 
     microphones: MicrophoneSettings
+    calls: int
 
     def __init__(
         self,

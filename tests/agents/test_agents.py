@@ -133,7 +133,8 @@ def test_an_episode_begins_where_no_added_box_stands() -> None:
 
 
 def test_an_unknown_agent_is_an_error_that_lists_the_known_ones() -> None:
-    names = "scripted, oracle, blind, random, searcher, explorer, listener_drives, drive, listener"
+    driving = "scripted, oracle, blind, random, searcher, explorer, finder"
+    names = f"{driving}, listener_drives, drive, listener"
     with pytest.raises(ValueError, match=names):
         make_agent("psychic")
 

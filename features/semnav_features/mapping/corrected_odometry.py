@@ -66,6 +66,10 @@ class CorrectedOdometry:
         matched: number of landmarks that corrected the last pose.
     """
 
+    pose: Pose
+    landmarks: LandmarkMap | None
+    matched: int
+
     def __init__(
         self,
         start: Pose = ORIGIN,

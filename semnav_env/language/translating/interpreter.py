@@ -35,7 +35,7 @@ class AskingLimits:
         choices: the most choices of a question.
     """
 
-    acting: float = 0.9
+    acting: float = 0.93
     asking: float = 0.3
     choices: int = 2
 
