@@ -38,14 +38,22 @@ def browser() -> Any:
         yield opened
 
 
-def visit(browser: Any, address: str, **settings: Any) -> tuple[Any, list[str]]:
+def visit(
+    browser: Any, address: str, still: bool = False, **settings: Any
+) -> tuple[Any, list[str]]:
     """The opened page, and what goes wrong on it or is asked for elsewhere.
 
-    Its time stands still but for `page.clock.run_for`: a busy machine would miss what plays.
+    Args:
+        browser: a running one.
+        address: of the page.
+        still: whether its time stands still but for `page.clock.run_for`: a busy machine would
+            miss what plays.
+        settings: of the page.
     """
     page, faults = new_page(browser, **settings)
-    page.clock.install(time=0)
-    page.clock.pause_at(1000)
+    if still:
+        page.clock.install(time=0)
+        page.clock.pause_at(1000)
     page.on("request", lambda asked: asked.url != address and faults.append(asked.url))
     page.goto(address)
     return page, faults
@@ -57,7 +65,7 @@ def painted(page: Any) -> Any:
 
 
 def test_a_failure_is_drawn_at_its_end_and_plays(browser: Any, address: str) -> None:
-    page, faults = visit(browser, address)
+    page, faults = visit(browser, address, still=True)
     clock, button = page.locator("article output").first, page.locator("article button").first
     expect(clock).to_have_text("6.0 s")
     end = painted(page)
@@ -80,7 +88,7 @@ def test_a_failure_is_drawn_at_its_end_and_plays(browser: Any, address: str) -> 
 
 
 def test_one_failure_plays_at_a_time(browser: Any, address: str) -> None:
-    page, _ = visit(browser, address)
+    page, _ = visit(browser, address, still=True)
     page.select_option("#speed", "1")
     first, second = page.locator("article button").all()
     first.click()
