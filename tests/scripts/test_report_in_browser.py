@@ -10,7 +10,12 @@ import pytest
 from semnav_agents.evaluation import summarise
 from semnav_scripts.report.html_report import save_report
 from tests.scripts.test_report import MADE_BY, WHO
-from tests.support.chromium import opened_browser, playwright_or_skip, serious_findings
+from tests.support.chromium import (
+    new_page,
+    opened_browser,
+    playwright_or_skip,
+    serious_findings,
+)
 from tests.support.kept_drives import failure
 
 playwright = playwright_or_skip()
@@ -33,11 +38,22 @@ def browser() -> Any:
         yield opened
 
 
-def visit(browser: Any, address: str, **settings: Any) -> tuple[Any, list[str]]:
-    """The opened page, and what goes wrong on it or is asked for elsewhere."""
-    page, faults = browser.new_page(**settings), list[str]()
-    page.on("pageerror", lambda error: faults.append(str(error)))
-    page.on("console", lambda said: said.type == "error" and faults.append(said.text))
+def visit(
+    browser: Any, address: str, still: bool = False, **settings: Any
+) -> tuple[Any, list[str]]:
+    """The opened page, and what goes wrong on it or is asked for elsewhere.
+
+    Args:
+        browser: a running one.
+        address: of the page.
+        still: whether its time stands still but for `page.clock.run_for`: a busy machine would
+            miss what plays.
+        settings: of the page.
+    """
+    page, faults = new_page(browser, **settings)
+    if still:
+        page.clock.install(time=0)
+        page.clock.pause_at(1000)
     page.on("request", lambda asked: asked.url != address and faults.append(asked.url))
     page.goto(address)
     return page, faults
@@ -49,19 +65,21 @@ def painted(page: Any) -> Any:
 
 
 def test_a_failure_is_drawn_at_its_end_and_plays(browser: Any, address: str) -> None:
-    page, faults = visit(browser, address)
+    page, faults = visit(browser, address, still=True)
     clock, button = page.locator("article output").first, page.locator("article button").first
     expect(clock).to_have_text("6.0 s")
     end = painted(page)
     page.select_option("#speed", "1")
     button.click()
     expect(button).to_have_text("Halt")
+    page.clock.run_for(2000)
     expect(clock).not_to_have_text("6.0 s")
     assert painted(page) != end
     button.click()
     expect(button).to_have_text("Play")
     page.select_option("#speed", "16")
     button.click()
+    page.clock.run_for(6000)
     expect(clock).to_have_text("6.0 s")
     expect(button).to_have_text("Play")
     assert painted(page) == end
@@ -70,7 +88,7 @@ def test_a_failure_is_drawn_at_its_end_and_plays(browser: Any, address: str) -> 
 
 
 def test_one_failure_plays_at_a_time(browser: Any, address: str) -> None:
-    page, _ = visit(browser, address)
+    page, _ = visit(browser, address, still=True)
     page.select_option("#speed", "1")
     first, second = page.locator("article button").all()
     first.click()

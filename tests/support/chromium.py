@@ -12,6 +12,11 @@ import pytest
 CHROMIUM = Path("/usr/bin/chromium")
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-background-networking"]
 
+PATIENCE = 120_000
+"""How long a machine that is busy with other work may take for anything, milliseconds. Playwright
+waits for 5 s where it expects something and for 30 s elsewhere, which a loaded machine needs for
+less than building a scene."""
+
 
 def playwright_or_skip() -> Any:
     """The module of Playwright; without it, or without Chromium, the test module is skipped."""
@@ -23,13 +28,23 @@ def playwright_or_skip() -> Any:
 
 @contextmanager
 def opened_browser(playwright: Any) -> Iterator[Any]:
-    """A running browser."""
+    """A running browser; whatever is expected of its pages may take `PATIENCE`."""
+    playwright.expect.set_options(timeout=PATIENCE)
     with playwright.sync_playwright() as driver:
-        browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
+        browser = driver.chromium.launch(executable_path=CHROMIUM, args=FLAGS, timeout=PATIENCE)
         try:
             yield browser
         finally:
             browser.close()
+
+
+def new_page(browser: Any, **settings: Any) -> tuple[Any, list[str]]:
+    """An empty page, and the errors of its scripts as they come."""
+    page, faults = browser.new_page(**settings), list[str]()
+    page.set_default_timeout(PATIENCE)
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.on("console", lambda said: said.type == "error" and faults.append(said.text))
+    return page, faults
 
 
 def serious_findings(page: Any) -> list[Any]:
