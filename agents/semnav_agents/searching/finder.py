@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from semnav_agents.base import Observation
 from semnav_agents.scripted import ScriptedAgent
 from semnav_agents.searching.agent import PlanSearcher, people_of
 from semnav_agents.searching.finding_tasks import FindingTask, LookTask, PersonTask, SearchTask
+from semnav_agents.searching.house_plan import numbers_of, room_entered
 from semnav_env.language import (
     CLAUSE_FEATURES,
     MAX_CLAUSES,
@@ -34,11 +34,7 @@ from semnav_env.mind.observations import (
 )
 from semnav_env.rescue.people_entry import PeopleEntry
 from semnav_env.robots.actions import shares_of
-from semnav_features.frames import Point, Pose
-
-FRONT = 0.5
-"""Distance ahead of the robot's middle, within its body, metres: of a robot in a doorway this lies
-in the room that it enters."""
+from semnav_features.frames import Point, Pose, Twist
 
 
 class Finder(PlanSearcher):
@@ -67,7 +63,7 @@ class Finder(PlanSearcher):
         """The next action."""
         pose, _ = read_odometry(observation)
         self._see(pose, observation["scan"])
-        task = self._current_task(observation, pose)
+        task = self._current_task(observation)
         if task is None:
             return self._driver.act(observation)
         step = task.next_step(pose, people_of(observation, pose))
@@ -75,7 +71,7 @@ class Finder(PlanSearcher):
             return shares_of((0.0, 0.0, step.yaw_rate), self._pilot.robot)
         return self._drive(observation, step.target, careful=step.careful)
 
-    def _current_task(self, observation: Observation, pose: Pose) -> FindingTask | None:
+    def _current_task(self, observation: Observation) -> FindingTask | None:
         """The task of the clause that the robot believes to be active; None if it only drives."""
         if self._command is None:
             rooms = self._known_plan.room_names
@@ -86,15 +82,18 @@ class Finder(PlanSearcher):
         number = int(np.argmax(active)) if stops and active.any() else -1
         if number != self._under_way:
             self._under_way = number
-            self._task = None if number < 0 else self._new_task(self._command.clauses[number], pose)
+            motion = read_odometry(observation)
+            clause = self._command.clauses[number]
+            self._task = None if number < 0 else self._new_task(clause, *motion)
         return self._task
 
-    def _new_task(self, clause: Clause, pose: Pose) -> FindingTask | None:
+    def _new_task(self, clause: Clause, pose: Pose, velocity: Twist) -> FindingTask | None:
         match clause:
             case SearchHouse():
                 return SearchTask(self._chart, self._looker, None)
             case SearchRoom():
-                return SearchTask(self._chart, self._looker, self._room_at(pose))
+                room = self._room_of(clause, pose, velocity)
+                return SearchTask(self._chart, self._looker, room)
             case LookAround():
                 return LookTask(self._chart, self._looker, pose)
             case GoToPerson() | AskName():
@@ -102,10 +101,7 @@ class Finder(PlanSearcher):
                 return PersonTask(self._chart, self._looker, self._visited, again=again)
         return None
 
-    def _room_at(self, pose: Pose) -> int:
-        """The number of the room in which the robot is, or which it enters."""
-        x, y, heading = pose
-        front = x + FRONT * math.cos(heading), y + FRONT * math.sin(heading)
-        grid, rooms = self._chart.grid, self._chart.rooms
-        ahead, here = (int(rooms[grid.cell(place)]) for place in (front, (x, y)))
-        return ahead if ahead >= 0 else here
+    def _room_of(self, clause: SearchRoom, pose: Pose, velocity: Twist) -> int:
+        """The number of the room to search: the named one, or that which the robot enters."""
+        numbers = numbers_of(self._known_plan, clause.room.name if clause.room else None)
+        return room_entered(self._chart, numbers, pose, velocity, self._pilot.robot.width)

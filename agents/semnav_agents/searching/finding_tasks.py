@@ -20,11 +20,18 @@ TURN_MARGIN = 0.28
 """Distance from everything solid beside the body that turns on the spot, metres: it comes to within
 0.2 m of the place to turn."""
 
-TURN_RADIUS = 1.2
-"""Largest distance of the place to turn from where the clause began, metres."""
+TURN_RADIUS = 1.1
+"""Largest distance of the axle at the place to turn from where the clause began, metres: the middle
+of a turning wheelchair comes 0.18 m farther, and 0.2 m more is the tolerance of the way there."""
 
 PATIENCE = 200
 """Control periods after which the robot turns where it is, though it has not come to that place."""
+
+STALLED = 15
+"""Control periods without turning after which the robot turns the other way."""
+
+STILL = 0.01
+"""Turn in a control period below which the robot does not turn, radians."""
 
 SURE = 0.9
 """Probability from which on a possible person counts as found."""
@@ -82,6 +89,8 @@ class SearchTask:
 class LookTask:
     """Turns on the spot once, where there is room for the body to turn.
 
+    A robot that something holds up turns the other way.
+
     Args:
         chart: the map.
         looker: body and detector.
@@ -89,22 +98,36 @@ class LookTask:
     """
 
     def __init__(self, chart: SearchMap, looker: Looker, pose: Pose) -> None:
+        self._axle = looker.robot.axle
         self._place: Pose | None = _place_to_turn(chart, looker, pose)
         self._patience = PATIENCE
         self._tolerance = chart.settings.position_tolerance
         self._turned, self._heading = 0.0, pose[2]
+        self._least = self._most = 0.0
+        self._rate, self._idle = TURN_RATE, 0
 
     def next_step(self, pose: Pose, people: People) -> FindingStep:
         """See `FindingTask`."""
         del people
         if self._place is not None:
             self._patience -= 1
-            if math.dist(pose[:2], self._place[:2]) > self._tolerance and self._patience > 0:
+            away = math.dist(_axle(pose, self._axle), _axle(self._place, self._axle))
+            if away > self._tolerance and self._patience > 0:
                 return FindingStep(self._place)
             self._place, self._heading = None, pose[2]
-        self._turned += abs(wrap_angle(pose[2] - self._heading))
-        self._heading = pose[2]
-        return FindingStep(yaw_rate=TURN_RATE) if self._turned < math.tau else FindingStep()
+        self._note_turn(pose[2])
+        done = self._most - self._least >= math.tau
+        return FindingStep() if done else FindingStep(yaw_rate=self._rate)
+
+    def _note_turn(self, heading: float) -> None:
+        """Note how far it has turned to each side, and change the side if it does not turn."""
+        turn = wrap_angle(heading - self._heading)
+        self._heading, self._turned = heading, self._turned + turn
+        self._least, self._most = min(self._least, self._turned), max(self._most, self._turned)
+        self._idle = self._idle + 1 if abs(turn) < STILL else 0
+        if self._idle > STALLED:
+            self._rate = -TURN_RATE if self._rate > 0.0 else 0.0
+            self._idle = 0
 
 
 class PersonTask:
@@ -194,13 +217,17 @@ def _is_with(pose: Pose, person: Point) -> bool:
     return math.dist(pose[:2], person) <= TALKING_RANGE
 
 
+def _axle(pose: Pose, axle: float) -> Point:
+    """The point that a body at a pose turns about."""
+    return pose[0] + axle * math.cos(pose[2]), pose[1] + axle * math.sin(pose[2])
+
+
 def _place_to_turn(chart: SearchMap, looker: Looker, pose: Pose) -> Pose | None:
-    """The nearest place where the body can turn on the spot; None for where it is."""
+    """The nearest place where the body can turn about its axle; None for where it is."""
     robot = looker.robot
     ways = ways_from(chart, pose[:2], robot.width / 2 + 0.03)
     reach = math.hypot(robot.length / 2 + abs(robot.axle), robot.width / 2) + TURN_MARGIN
-    row, column = chart.grid.cell(pose[:2])
-    if ways.room[row, column] >= reach:
+    if ways.room[chart.grid.cell(_axle(pose, robot.axle))] >= reach:
         return None
     cells = np.argwhere((ways.room >= reach) & np.isfinite(ways.costs))
     if not len(cells):
@@ -212,4 +239,5 @@ def _place_to_turn(chart: SearchMap, looker: Looker, pose: Pose) -> Pose | None:
     if not math.isfinite(costs[best]):
         return None
     x, y = points[best].tolist()
-    return x, y, math.atan2(y - pose[1], x - pose[0])
+    heading = math.atan2(y - pose[1], x - pose[0])
+    return *_axle((x, y, heading), -robot.axle), heading

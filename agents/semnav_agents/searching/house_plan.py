@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 import shapely
 
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_agents.searching.search_map import Mask, SearchMap
 from semnav_agents.searching.settings import SearchSettings
+from semnav_env.language.rooms import plain_name
 from semnav_env.world.maps import FloorPlan, Material
-from semnav_features.frames import FloatArray, Pose, points_to_local, points_to_parent
+from semnav_env.world.maps.floor_plan import Region
+from semnav_features.frames import FloatArray, Pose, Twist, points_to_local, points_to_parent
 
 MARGIN = 1.0
 """Distance that the map reaches beyond the house, metres: the believed pose drifts."""
@@ -17,6 +22,14 @@ MARGIN = 1.0
 KNOWN_MARGIN = 6
 """Cells around what was seen within which the plan's walls no longer count for driving: there the
 lidar knows better."""
+
+MOVING = 0.05
+"""Speed from which on a robot counts as driving in some direction, m/s."""
+
+
+def numbered_regions(plan: FloorPlan) -> tuple[Region, ...]:
+    """The regions of a plan in the order of their numbers in the map; the first one wins."""
+    return (*plan.rooms, *plan.areas, *plan.corridors, *plan.intersections)
 
 
 class HousePlan:
@@ -45,9 +58,7 @@ class HousePlan:
         chart.walls[chart.grid.cells(*self.wall_points.T)] = True
         cells = np.argwhere(np.ones(chart.rooms.shape, bool))
         x, y = points_to_parent(self._start, chart.grid.points(cells)).T
-        plan = self._plan
-        regions = (*plan.rooms, *plan.areas, *plan.corridors, *plan.intersections)
-        for number, region in reversed(list(enumerate(regions))):
+        for number, region in reversed(list(enumerate(numbered_regions(self._plan)))):
             inside = shapely.contains_xy(region.polygon, x, y)
             chart.rooms[tuple(cells[inside].T)] = number
         return chart
@@ -56,3 +67,37 @@ class HousePlan:
         """Points of walls near which no beam has ended, shape (n, 2)."""
         unseen: FloatArray = self.wall_points[~known[chart.grid.cells(*self.wall_points.T)]]
         return unseen
+
+
+def numbers_of(plan: FloorPlan, name: str | None) -> list[int]:
+    """The numbers of the regions with a plain name; of all regions for None."""
+    names = [plain_name(region.name) for region in numbered_regions(plan)]
+    return [number for number, each in enumerate(names) if name in (None, each)]
+
+
+def room_entered(
+    chart: SearchMap, numbers: Sequence[int], pose: Pose, velocity: Twist, width: float
+) -> int:
+    """Which of some rooms a robot is in, or the nearest of them.
+
+    A robot in a doorway is in the room into which it drives, forward, sideways or backward: what
+    counts is the point half its width ahead, which lies within the body, so behind no wall.
+
+    Args:
+        chart: the map.
+        numbers: of the rooms.
+        pose: of the robot, odometry frame.
+        velocity: forward and to the left, m/s, and yaw rate.
+        width: of the robot, metres.
+
+    Returns:
+        The number of the room.
+    """
+    x, y, heading = pose
+    forward, left, _ = velocity
+    moves = math.hypot(forward, left) > MOVING
+    course = heading + (math.atan2(left, forward) if moves else 0.0)
+    place = x + width / 2 * math.cos(course), y + width / 2 * math.sin(course)
+    cells = np.argwhere(np.isin(chart.rooms, numbers))
+    away = np.hypot(*(chart.grid.points(cells) - place).T)
+    return int(chart.rooms[tuple(cells[np.argmin(away)])])
