@@ -111,7 +111,6 @@ def test_nonsense_is_refused_without_a_question(text: str) -> None:
         "go down the hallway but don't turn left at the intersection",
         "bieg an der Kreuzung auf keinen Fall links ab",
         "you must not enter the second door",
-        "go to the end of the hallway without turning left",
         "stay out of the first room on the left",
     ],
 )

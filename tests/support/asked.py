@@ -5,7 +5,7 @@ from __future__ import annotations
 from semnav_env.language import AmbiguousCommandError, CommandError, Question, parse
 
 DOUBTFUL = (
-    "go to or through the second door on the right",
+    "take the first or the second door on the right",
     "first door, or was it the second, on the left",
     "turn at the intersection",
     "go back",

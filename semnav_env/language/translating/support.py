@@ -8,11 +8,13 @@ from functools import cached_property
 
 from semnav_env.language.clauses import Follow, GoBack, Leave, Pace, Stop
 from semnav_env.language.command import Command, reference_of
+from semnav_env.language.finding_clauses import AskName, GoToPerson
 from semnav_env.language.references import PlaceReference
 from semnav_env.language.vocabulary.lexicon import Lexicon
 from semnav_env.language.vocabulary.recognition import lexicon_for, recognised
 
 _COUNTED = ("one", "ordinal", "another")
+_KINDS = ((GoBack, "back"), (Leave, "leave"), (GoToPerson, "person"), (AskName, "person"))
 NEEDED = {
     "door": ("noun door", "noun room", "noun doorway", "number", "it", "after that", *_COUNTED),
     "intersection": ("noun intersection", "noun turning", *_COUNTED),
@@ -21,6 +23,7 @@ NEEDED = {
     "end": ("noun end", "noun wall", "noun hall", "to end", "end until", "at end", "verb cross"),
     "turning": ("noun turning", "noun hall", "noun intersection", "verb turn", *_COUNTED),
     "back": ("back", "verb return", "verb back", "noun start", "noun way back", "start where"),
+    "person": ("beyond", "it", "pronoun", "relative", "<me>", "<someone>"),
     "leave": ("verb leave", "verb exit", "noun room", "noun door", "noun area", "out", "prep out"),
 }
 """For each thing that a command names, the classes of phrases of which a text must have one."""
@@ -68,6 +71,5 @@ def _named(command: Command) -> set[str]:
         what = reference_of(clause)
         if what is not None:
             found.add(what.place.value if isinstance(what, PlaceReference) else "door")
-        found |= {"back"} if isinstance(clause, GoBack) else set()
-        found |= {"leave"} if isinstance(clause, Leave) else set()
+        found |= {name for kind, name in _KINDS if isinstance(clause, kind)}
     return found
