@@ -51,7 +51,7 @@ def draw_room(axes: Axes) -> None:
     axes.plot(*zip(*[pose[:2] for pose in POSES], strict=True), "k^", label="scans")
     axes.set_title("corners of three scans, ellipses of 10 deviations")
     axes.set(xlim=(-2.2, 3.0), ylim=(0.8, 7.6))
-    axes.set_aspect("equal")
+    axes.set(aspect="equal", xlabel="x, m", ylabel="y, m")
     axes.legend(loc="upper right")
 
 
@@ -66,7 +66,7 @@ def draw_drift(axes: Axes) -> None:
         found = np.array(followed(part, motions(part, 0), landmarks))
         axes.plot(*found[:, :2].T, linewidth=0.9, label=f"corrected by {name}")
     axes.set_title("freiburg-079 with the errors of a wheelchair's odometry")
-    axes.set_aspect("equal")
+    axes.set(aspect="equal", xlabel="x, m", ylabel="y, m")
     axes.legend()
 
 
