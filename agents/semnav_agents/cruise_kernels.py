@@ -27,7 +27,7 @@ from semnav_agents.planning.free import points_around
 from semnav_agents.planning.guard import FORESIGHT, free_share
 from semnav_agents.planning.motion import Move
 from semnav_agents.planning.nudge import best_nudge, path_clearances
-from semnav_agents.planning.obstacle_kernels import SearchBox, SelectionLimits, box_around, select
+from semnav_agents.planning.obstacle_selection import SearchBox, SelectionLimits, box_around, select
 from semnav_agents.planning.track import TrackArrays
 from semnav_env.mind.grounding.goal import GoalKind
 from semnav_features.frames import (

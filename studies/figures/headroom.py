@@ -5,12 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from semnav_agents.evaluation.attempts import read_attempts
-from semnav_agents.evaluation.leaderboard import Standing, standings
+from semnav_agents.evaluation.leaderboard import Standing
 from semnav_agents.evaluation.provenance import UNKNOWN
-from semnav_scripts.leaderboard import KEPT_SUFFIX
 from studies.figures import IMAGES
-from studies.figures.leaderboard import RESULTS
+from studies.figures.leaderboard import kept_standings
 
 PAGE = IMAGES.parent / "benchmark.md"
 
@@ -75,6 +73,4 @@ def main() -> None:
 
 def page(text: str) -> str:
     """The text of the page with the table as it follows from the kept results."""
-    files = sorted(RESULTS.glob(f"*{KEPT_SUFFIX}"))
-    rows = standings(attempt for file in files for attempt in read_attempts(file))
-    return TABLE.sub(lambda _: table(rows), text, count=1)
+    return TABLE.sub(lambda _: table(kept_standings()), text, count=1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from semnav_agents.evaluation.attempts import read_attempts
-from semnav_agents.evaluation.leaderboard import standings
+from semnav_agents.evaluation.leaderboard import Standing, standings
 from semnav_scripts.leaderboard import KEPT_SUFFIX, markdown
 from studies.figures import IMAGES
 
@@ -23,8 +23,12 @@ def main() -> None:
     PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8")
 
 
+def kept_standings() -> list[Standing]:
+    """The standings as they follow from the kept results."""
+    files = sorted(RESULTS.glob(f"*{KEPT_SUFFIX}"))
+    return standings(attempt for file in files for attempt in read_attempts(file))
+
+
 def page(text: str) -> str:
     """The text of the page with the table as it follows from the kept results."""
-    files = sorted(RESULTS.glob(f"*{KEPT_SUFFIX}"))
-    rows = standings(attempt for file in files for attempt in read_attempts(file))
-    return TABLE.sub(lambda _: markdown(rows), text, count=1)
+    return TABLE.sub(lambda _: markdown(kept_standings()), text, count=1)

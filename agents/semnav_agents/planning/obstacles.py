@@ -17,11 +17,9 @@ from semnav_agents.planning.obstacle_kernels import (
     TABLE_SHAPE,
     MemoryClock,
     MemoryLimits,
-    SelectionLimits,
-    box_around,
     remember,
-    select,
 )
+from semnav_agents.planning.obstacle_selection import SelectionLimits, box_around, select
 from semnav_env.world.maps.cell_budget import check_cells
 from semnav_features.checked_fields import Bounds, Count, Length, Share, check_fields
 from semnav_features.frames import FloatArray, Pose

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.planning.moving import mark_moving
-from semnav_agents.planning.obstacle_kernels import MemoryLimits, SelectionLimits, remember
+from semnav_agents.planning.obstacle_kernels import MemoryLimits, remember
+from semnav_agents.planning.obstacle_selection import SelectionLimits
 from semnav_agents.planning.obstacles import MemorySettings, ObstacleMemory, memory_arrays
 from semnav_features.frames import FloatArray, Pose, compose, points_to_parent
 from semnav_features.kernels.compiling import kernel
@@ -88,7 +89,7 @@ class Perception:
 
     @property
     def memory(self) -> tuple[Any, Any, Any, SelectionLimits]:
-        """States, centres, table and what counts of them, as `obstacle_kernels.select` takes it."""
+        """States, centres, table and what counts of them, for `obstacle_selection.select`."""
         states, centres, table = self._memory
         return states, centres, table, self._selection
 
