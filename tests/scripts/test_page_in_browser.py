@@ -174,9 +174,46 @@ def test_boxes_are_put_down_by_the_cross_and_taken_away(page):
     expect(page.locator("#clear-boxes")).to_be_disabled()
 
 
+@pytest.mark.parametrize("what, told", [("box", "A box is"), ("person", "A person walks")])
+def test_a_box_and_a_person_come_into_a_run_that_goes_on(page, what, told):
+    """The scene stays as it is: neither begins it anew."""
+    dawdle(page)
+    say(page, COMMAND)
+    expect(page.locator("#clock")).to_have_text(LATER)
+    before = seconds(page)
+    page.check(f"input[value={what}]")
+    page.focus("#canvas")
+    for key in ("Shift+ArrowRight", "Shift+ArrowRight", "Enter"):
+        page.keyboard.press(key)
+    expect_verdict(page, told)
+    assert seconds(page) >= before
+    assert page.input_value("#people") == "0"
+    expect(page.locator("#clear-boxes")).to_be_disabled()
+    hurry(page)
+    expect_verdict(page, re.compile("Done|Not done"))
+
+
+def seconds(page):
+    """What the clock of the run shows."""
+    return float(page.inner_text("#clock").split()[0])
+
+
 def test_the_robot_is_placed_by_a_drag(page):
     place_robot(page)
     expect(page.locator("#start")).not_to_have_value("-2.5, -0.6, 0.25")
+
+
+def test_a_drag_before_the_first_picture_means_the_same_place(page, browser, address):
+    """A browser that is busy draws late; the place does not depend on it."""
+    place_robot(page)
+    expect(page.locator("#start")).not_to_have_value("-2.5, -0.6, 0.25")
+    late, faults = new_page(browser)
+    late.add_init_script("window.requestAnimationFrame = () => 0")
+    visit(late, address)
+    place_robot(late)
+    expect(late.locator("#start")).to_have_value(page.input_value("#start"))
+    late.close()
+    assert faults == []
 
 
 def place_robot(page):

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 from shapely import Polygon
 
 from semnav_agents.base import PlanReader
@@ -23,7 +24,7 @@ from semnav_features.frames import Point, Pose
 from semnav_features.validation import require
 from semnav_scripts.page.frame_message import frame_message
 from semnav_scripts.page.plan_message import body_message, plan_message
-from semnav_scripts.page.requests import OWN, SceneRequest
+from semnav_scripts.page.requests import MAX_BOXES, OWN, SceneRequest
 
 BOX_SIDE = 0.5
 """Length of a side of a box, metres."""
@@ -65,7 +66,9 @@ class PageDrive:
             self.floor_plan,
             observation=self._agent.observation,
             dynamics=Dynamics(
-                pedestrians=scene.people, changing_doors=BY_HAND_ONLY if scene.leaves else 0.0
+                pedestrians=scene.people,
+                changing_doors=BY_HAND_ONLY if scene.leaves else 0.0,
+                by_hand=MAX_BOXES,
             ),
         )
         options = None if scene.pose is None else {"pose": scene.pose}
@@ -135,6 +138,20 @@ class PageDrive:
             known = ", ".join(self.swinging) or "none"
             raise ValueError(f"door is {door!r:.80}; doors with a leaf that can swing: {known}")
         moving.doors.hold(door, shut)
+
+    def put(self, what: str, place: Point) -> None:
+        """Put down a box, or let a person walk from a place; both stay until the next command.
+
+        Raises:
+            ValueError: nothing drives, or the place is not free.
+        """
+        if self.over:
+            raise ValueError("nothing drives; give a command first")
+        if what == "box":
+            self.env.world.add_box(np.array(list(_square(*place))[:-1]))
+        else:
+            self.env.world.add_person(place)
+        self._seen = None
 
     @property
     def swinging(self) -> tuple[str, ...]:

@@ -143,6 +143,22 @@ class DoorRequest:
 
 
 @dataclass(frozen=True)
+class PutRequest:
+    """Put a box or a person into the run.
+
+    Attributes:
+        what: "box" or "person".
+        place: its middle, metres.
+    """
+
+    what: Annotated[str, OneOf(("box", "person"))]
+    place: Place
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+
+
+@dataclass(frozen=True)
 class KeepRequest:
     """Make a file to keep.
 
@@ -217,6 +233,7 @@ PageRequest: TypeAlias = (
     | PlaybackRequest
     | SpeedRequest
     | DoorRequest
+    | PutRequest
     | KeepRequest
     | DrawRequest
     | FileRequest
@@ -229,6 +246,7 @@ KINDS: dict[str, type[PageRequest]] = {
     "playback": PlaybackRequest,
     "speed": SpeedRequest,
     "door": DoorRequest,
+    "put": PutRequest,
     "keep": KeepRequest,
     "draw": DrawRequest,
 }

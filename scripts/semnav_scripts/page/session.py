@@ -29,6 +29,7 @@ from semnav_scripts.page.requests import (
     KeepRequest,
     PageRequest,
     PlaybackRequest,
+    PutRequest,
     SceneRequest,
     SpeedRequest,
 )
@@ -143,6 +144,10 @@ class PageSession(threading.Thread):
                 self._speed = factor
             case DoorRequest(door=door, shut=shut):
                 self._scene().shut(door, shut)
+            case PutRequest(what=what, place=place):
+                self._scene().put(what, place)
+                self._tell({"type": "put", "what": what})
+                self._show()
             case KeepRequest(what="board"):
                 self._outbox.put_news(plan_file(self._opened_board().plan))
             case KeepRequest(what=what):

@@ -43,15 +43,13 @@ class Crowd:
         dynamics: number of people and how they walk.
 
     Attributes:
-        places: positions, metres, shape (n, 2); always the same array.
+        places: positions, metres, shape (n, 2).
         velocities: velocities after collisions, m/s, shape (n, 2).
     """
 
     def __init__(self, plan: FloorPlan, still: FloorPlan, dynamics: Dynamics) -> None:
         self._plan, self._dynamics = plan, dynamics
-        self.places = np.zeros((dynamics.pedestrians, 2))
-        self.velocities = np.zeros((dynamics.pedestrians, 2))
-        self._wishes = np.zeros((dynamics.pedestrians, 2))
+        self._stand_still()
         self._walls = culled_walls(still.segments)
         self._model = orca if dynamics.model == "orca" else social_force
         self._routes = Destinations(plan)
@@ -66,6 +64,7 @@ class Crowd:
         Raises:
             ValueError: there is no room for so many people.
         """
+        self._stand_still()
         walking, count = self._dynamics.walking, len(self.places)
         self._rng = rng
         spread = np.clip(rng.standard_normal(count), -2.0, 2.0) * walking.spread
@@ -74,9 +73,36 @@ class Crowd:
         for i in range(count):
             self.places[i], ways = self._free_place(i, start)
             self._ways.append(ways)
-        self.velocities[:] = 0.0
         self._best = np.full(count, np.inf)
         self._waited = np.zeros(count)
+
+    def _stand_still(self) -> None:
+        """As many people as the settings say, before they have places."""
+        count = self._dynamics.pedestrians
+        self.places, self.velocities, self._wishes = (np.zeros((count, 2)) for _ in range(3))
+
+    def add(self, place: Point, robot: Pose) -> None:
+        """Let one more person walk from a place, until the next episode.
+
+        Args:
+            place: metres.
+            robot: its pose; the person keeps `START_CLEARANCE` from it.
+
+        Raises:
+            ValueError: the place is not free, or leads nowhere.
+        """
+        count = len(self.places)
+        ways = self._ways_to_another_place(place) if self._is_free(place, count, robot) else None
+        if ways is None:
+            right = f"a free place {START_CLEARANCE} m or more from the robot, with a way elsewhere"
+            raise ValueError(f"person is {place}; it must be {right}")
+        self._ways.append(ways)
+        self.places = np.vstack((self.places, place))
+        self.velocities, self._wishes = (
+            np.vstack((rows, (0.0, 0.0))) for rows in (self.velocities, self._wishes)
+        )
+        self._speeds = np.append(self._speeds, self._dynamics.walking.speed)
+        self._best, self._waited = np.append(self._best, np.inf), np.append(self._waited, 0.0)
 
     def step(
         self, body: FloatArray, leaves: FloatArray, guard: float, touch: float, seconds: float

@@ -77,6 +77,8 @@ class Dynamics:
             episode.
         walking: how people walk.
         swinging: how doors move.
+        by_hand: largest number of boxes, and of people, that can be added while an episode runs
+            (`World.add_box`, `World.add_person`).
     """
 
     pedestrians: Annotated[int, Bounds(0, 200)] = 0
@@ -87,6 +89,7 @@ class Dynamics:
     victims: Annotated[int, Bounds(0, 20)] = 0
     walking: Walking = field(default_factory=Walking)
     swinging: Swinging = field(default_factory=Swinging)
+    by_hand: Annotated[int, Bounds(0, 20)] = 0
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -94,7 +97,7 @@ class Dynamics:
     @property
     def moves(self) -> bool:
         """Whether anything moves during an episode."""
-        return self.pedestrians > 0 or self.changing_doors > 0.0
+        return self.pedestrians > 0 or self.changing_doors > 0.0 or self.by_hand > 0
 
     @property
     def furnishes(self) -> bool:

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pymunk
 
+from semnav_features.frames import FloatArray
+
 if TYPE_CHECKING:
     from semnav_env.world.dynamics.moving import Moving
 
@@ -22,16 +24,29 @@ class Movers:
     """
 
     def __init__(self, space: pymunk.Space, moving: Moving, seconds: float) -> None:
-        self._moving, self._seconds = moving, seconds
-        self._people = [_kinematic(space) for _ in moving.discs]
-        for body, (_, _, radius) in zip(self._people, moving.discs.tolist(), strict=True):
-            _add(space, pymunk.Circle(body, radius))
+        self._space, self._moving, self._seconds = space, moving, seconds
+        self._people = [self._person(radius) for _, _, radius in moving.discs.tolist()]
         self._leaves = [_kinematic(space) for _ in moving.doors.leaves]
         for body, leaf in zip(self._leaves, moving.doors.leaves, strict=True):
             body.position = leaf.hinge
             _add(space, pymunk.Segment(body, (0.0, 0.0), (leaf.length, 0.0), 0.0))
         self._angles = np.full(len(self._leaves), np.nan)
         self.arrive()
+
+    def _person(self, radius: float) -> pymunk.Body:
+        body = _kinematic(self._space)
+        _add(self._space, pymunk.Circle(body, radius))
+        return body
+
+    def add_person(self) -> None:
+        """Make the person solid that was added to `Moving` last."""
+        x, y, radius = self._moving.discs[-1].tolist()
+        self._people.append(self._person(radius))
+        self._people[-1].position = x, y
+
+    def add_box(self, outline: FloatArray) -> None:
+        """Make a box solid, corners in metres, shape (4, 2)."""
+        _add(self._space, pymunk.Poly(self._space.static_body, outline.tolist()))
 
     def go(self) -> None:
         """Give every body the velocity that leads to its new place."""

@@ -28,7 +28,7 @@ from semnav_env.world.physics.drive import demand_velocity, drive, settle
 from semnav_env.world.physics.drive_record import drive_record
 from semnav_env.world.physics.free_motion import culling_around
 from semnav_env.world.physics.spare_spaces import SPARE_SPACES
-from semnav_features.frames import Contact, FloatArray, Pose, Twist
+from semnav_features.frames import Contact, FloatArray, Point, Pose, Twist
 from semnav_features.validation import finite_floats, shown
 
 if TYPE_CHECKING:
@@ -226,9 +226,51 @@ class World:
         count = int(self.record["contact_count"][0])
         return [(x, y, inward) for x, y, inward in self._contacts[:count].tolist()]
 
+    def add_person(self, place: Point) -> None:
+        """Let one more person walk about from a place, until the next `reset`.
+
+        A copy of the world that is pickled forgets what was added by hand.
+
+        Args:
+            place: x and y, metres, world frame.
+
+        Raises:
+            ValueError: the place is not free, or there are as many as `Dynamics.by_hand` allows.
+            RuntimeError: before the first `reset`.
+        """
+        self._require_by_hand().add_person(place, self.pose)
+        self._movers.add_person()
+
+    def add_box(self, outline: FloatArray) -> None:
+        """Put down a box, which stays until the next `reset`.
+
+        A copy of the world that is pickled forgets what was added by hand.
+
+        Args:
+            outline: its four corners in turn, metres, world frame, shape (4, 2).
+
+        Raises:
+            ValueError: somebody, the robot or a leaf that swings is in its way, it lies outside, or
+                there are as many as `Dynamics.by_hand` allows.
+            RuntimeError: before the first `reset`.
+        """
+        self._require_by_hand().add_box(outline, self.pose)
+        self._movers.add_box(outline)
+
+    def _require_by_hand(self) -> Moving:
+        self._require_reset()
+        if self.moving is None:
+            raise ValueError("nothing can be added to this world: Dynamics.by_hand is 0")
+        return self.moving
+
+    @property
+    def moving_buffers(self) -> tuple[FloatArray, FloatArray]:
+        """As `moving_shapes`, with rows for what is added by hand; always the same arrays."""
+        return NO_MOVING_THINGS if self.moving is None else self.moving.buffers
+
     @property
     def moving_shapes(self) -> tuple[FloatArray, FloatArray]:
-        """Discs of people, shape (n, 3), and leaves, shape (m, 4), as a lidar takes them."""
+        """Discs of people, shape (n, 3), and leaves and sides of added boxes, shape (m, 4)."""
         return NO_MOVING_THINGS if self.moving is None else self.moving.shapes
 
     def social(self) -> dict[str, Any]:

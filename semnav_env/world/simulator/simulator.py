@@ -126,7 +126,7 @@ class Simulator:
         spec = setup.lidar
         if setup.exact:
             spec = replace(spec, sigma=0.0, dropout=0.0, systematic=0.0)
-        self.lidar = Lidar(self.world.still, spec, robot.lidar_mount, self.world.moving_shapes)
+        self.lidar = Lidar(self.world.still, spec, robot.lidar_mount, self.world.moving_buffers)
         self.odometry = Odometry(setup.odometry)
         self._seconds = 1.0 / setup.control_hz
         self.last_ranges = np.zeros(spec.beams)

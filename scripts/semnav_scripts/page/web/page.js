@@ -76,6 +76,7 @@ const { send, sendFile } = connect({
     replay.add(message, trail.length);
     narrate(message);
   },
+  put({ what }) { talk.say(what === "box" ? "A box is put down." : "A person walks about now."); },
   ended(message) {
     begin("over");
     talk.showEnd(message);
@@ -194,12 +195,15 @@ function act(points) {
 function actInScene([[x, y], second]) {
   const heading = headingTo([x, y], second);
   const place = [Number(x.toFixed(2)), Number(y.toFixed(2))];
-  if (tool() === "box") change({ boxes: [...scene.scene.boxes, place] });
+  const drives = run === "driving" || run === "paused";
+  if (tool() === "person" && !drives) talk.say("A person can be added while the robot drives.");
+  else if (tool() === "person" || (tool() === "box" && drives)) send("put", { what: tool(), place });
+  else if (tool() === "box") change({ boxes: [...scene.scene.boxes, place] });
   else if (tool() === "robot") change({ pose: [...place, Number((heading ?? scene.start[2]).toFixed(3))] });
   else swing(nearestDoor(x, y));
 }
 
-/** What a click in the scene does: "door", "box" or "robot". */
+/** What a click in the scene does: "door", "box", "person" or "robot". */
 function tool() {
   return document.querySelector("input[name=tool]:checked").value;
 }
