@@ -255,14 +255,16 @@ def test_a_door_that_is_shut_by_hand_stops_the_robot(client):
     assert ended["outcome"] == "failed"
 
 
-@pytest.mark.parametrize("what, part, numbers", [("box", "leaves", 16), ("person", "people", 3)])
+@pytest.mark.parametrize(
+    ("what", "part", "numbers"), [("box", "leaves", 16), ("person", "people", 3)]
+)
 def test_what_is_added_to_a_run_is_in_its_pictures(client, what, part, numbers):
     with in_the_hallway(client) as one:
         one.send(type="speed", factor=0.25)
         one.send(**SECOND_DOOR)
         one.next("understood")
         before = one.next("frame")
-        one.send(type="put", what=what, place=[0.0, -0.6])
+        one.send(type="put", what=what, place=[0.5, -0.6])
         one.next("put")
         pictures = [one.next("frame") for _ in range(3)]  # the first may be of the time before
     assert len(pictures[-1][part]) == len(before[part]) + numbers

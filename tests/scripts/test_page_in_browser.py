@@ -174,7 +174,7 @@ def test_boxes_are_put_down_by_the_cross_and_taken_away(page):
     expect(page.locator("#clear-boxes")).to_be_disabled()
 
 
-@pytest.mark.parametrize("what, told", [("box", "A box is"), ("person", "A person walks")])
+@pytest.mark.parametrize(("what", "told"), [("box", "A box is"), ("person", "A person walks")])
 def test_a_box_and_a_person_come_into_a_run_that_goes_on(page, what, told):
     """The scene stays as it is: neither begins it anew."""
     dawdle(page)
@@ -183,7 +183,7 @@ def test_a_box_and_a_person_come_into_a_run_that_goes_on(page, what, told):
     before = seconds(page)
     page.check(f"input[value={what}]")
     page.focus("#canvas")
-    for key in ("Shift+ArrowRight", "Shift+ArrowRight", "Enter"):
+    for key in (*["Shift+ArrowRight"] * 3, "Shift+ArrowUp", "Enter"):
         page.keyboard.press(key)
     expect_verdict(page, told)
     assert seconds(page) >= before

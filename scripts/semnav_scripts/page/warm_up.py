@@ -12,6 +12,9 @@ FIRST = SceneRequest(pose=(-2.5, -0.6, 0.25))
 COMMANDS = ("fahr durch die zweite Tür rechts", "go through the second door on the right")
 """Commands that can be carried out there, in every language."""
 
+PERSON = (0.5, -0.6)
+"""Where a person begins to walk, metres, away from the robot."""
+
 STEPS = 30
 """Control periods in which an agent has looked, planned and driven."""
 
@@ -23,6 +26,7 @@ def warm_up() -> None:
         heard = understand(text, None, drive.env.floor_plan.room_names)
         if isinstance(heard, Understood):
             drive.begin(heard.text, heard.command, heard.language.code)
+    drive.put("person", PERSON)
     for _ in range(STEPS):
         drive.step()
         drive.frame()
