@@ -101,6 +101,9 @@ def test_a_foreign_host_is_refused(client, host):
         ('{"type": "speed", "factor": 0}', "factor is 0"),
         ('{"type": "door", "door": "1", "shut": "yes"}', "shut is 'yes'"),
         ('{"type": "door", "door": "nowhere", "shut": true}', "door is 'nowhere'"),
+        ('{"type": "put", "what": "dog", "place": [0, 0]}', "what is 'dog'"),
+        ('{"type": "put", "what": "box", "place": [0, NaN]}', "place[1] is nan"),
+        ('{"type": "put", "what": "box", "place": [0, 0]}', "nothing drives"),
         ('{"type": "playback", "action": "step"}', "nothing drives"),
         ('{"type": "answer", "text": "left"}', "nothing was asked"),
         ('{"type": "keep", "what": "film"}', "no film yet"),
@@ -264,17 +267,23 @@ def test_what_is_added_to_a_run_is_in_its_pictures(client, what, part, numbers):
         one.send(**SECOND_DOOR)
         one.next("understood")
         before = one.next("frame")
-        one.send(type="put", what=what, place=[0.5, -0.6])
+        one.send(type="put", what=what, place=[1.0, 0.4])
         one.next("put")
         pictures = [one.next("frame") for _ in range(3)]  # the first may be of the time before
     assert len(pictures[-1][part]) == len(before[part]) + numbers
     assert pictures[-1]["seconds"] > before["seconds"]
 
 
-def test_nothing_is_put_where_nothing_drives(client):
+def test_what_cannot_be_added_is_told_and_the_run_goes_on(client):
     with in_the_hallway(client) as one:
-        one.send(type="put", what="box", place=[0.0, -0.6])
-        assert "nothing drives" in one.next("error")["text"]
+        one.send(type="speed", factor=0.25)
+        one.send(**SECOND_DOOR)
+        one.next("understood")
+        for what, why in (("box", "inside the floor plan"), ("person", "a free place")):
+            one.send(type="put", what=what, place=[99.0, 0.0])
+            assert why in one.next("error")["text"]
+        one.send(type="speed", factor=16)
+        assert one.next("ended")["outcome"] == "done"
 
 
 def test_a_box_is_part_of_the_scene(client):

@@ -29,13 +29,11 @@ COMMAND = "go through the second door on the right"
 
 @contextmanager
 def served():
-    """The address of a running server, which has compiled everything as `semnav serve` does."""
+    """The address of a running server."""
     from semnav_scripts.page.app import page_app
-    from semnav_scripts.page.warm_up import warm_up
 
-    warm_up()
     with listening("127.0.0.1", 0) as place:
-        server = uvicorn.Server(uvicorn.Config(page_app(), log_level="warning"))
+        server = uvicorn.Server(uvicorn.Config(page_app(sessions=12), log_level="warning"))
         thread = threading.Thread(target=server.run, kwargs={"sockets": [place]})
         thread.start()
         try:
@@ -49,6 +47,10 @@ def served():
 
 @pytest.fixture(scope="module")
 def address():
+    """Of a server that has compiled everything, as `semnav serve` does before it is there."""
+    from semnav_scripts.page.warm_up import warm_up
+
+    warm_up()
     with served() as home:
         yield home
 
@@ -59,11 +61,30 @@ def browser():
         yield opened
 
 
+@pytest.fixture(scope="module")
+def window(browser):
+    """One page for most of the tests, and its errors: opening another takes a process."""
+    return new_page(browser)
+
+
 @pytest.fixture
-def page(browser, address):
+def page(window, address):
     """A page whose scene is there; it must not report an error by the end."""
+    opened, faults = window
+    faults.clear()
+    visit(opened, address)
+    yield opened
+    assert faults == []
+
+
+@pytest.fixture(scope="module")
+def driven(browser, address):
+    """A page on which a run has ended well; each test leaves it at its end."""
     opened, faults = new_page(browser)
     visit(opened, address)
+    hurry(opened)
+    say(opened, COMMAND)
+    expect_verdict(opened, "Done.")
     yield opened
     opened.close()
     assert faults == []
@@ -87,22 +108,28 @@ def hurry(page):
     page.select_option("#speed", "8")
 
 
-def dawdle(page):
-    """Drive so slowly that a busy machine is in time for what it does meanwhile."""
+def drive_and_pause(page):
+    """Begin to drive, and stop the time: a busy machine is in time for whatever follows."""
     page.select_option("#speed", "0.25")
+    say(page, COMMAND)
+    expect(page.locator("#clock")).to_have_text(LATER)
+    page.click("#pause")
+    expect(page.locator("#pause")).to_have_text("Go on")
+
+
+def go_on(page):
+    hurry(page)
+    page.click("#pause")
 
 
 def expect_verdict(page, words):
     expect(page.locator("#verdict")).to_contain_text(words)
 
 
-def test_a_command_is_typed_understood_driven_and_judged(page):
-    hurry(page)
-    say(page, COMMAND)
-    expect(page.locator("#clauses li")).to_have_text([COMMAND])
-    expect_verdict(page, "Done.")
-    expect(page.locator("#clauses li")).to_have_class("done")
-    expect(page.locator("#reason")).to_contain_text("second door on the right")
+def test_a_command_is_typed_understood_driven_and_judged(driven):
+    expect(driven.locator("#clauses li")).to_have_text([COMMAND])
+    expect(driven.locator("#clauses li")).to_have_class("done")
+    expect(driven.locator("#reason")).to_contain_text("second door on the right")
 
 
 def test_it_works_by_the_keyboard_alone(page):
@@ -112,6 +139,7 @@ def test_it_works_by_the_keyboard_alone(page):
     page.keyboard.press("Tab")
     page.keyboard.press("Enter")
     expect(page.locator("#pause")).to_be_enabled()
+    expect(page.locator("#replay")).to_be_hidden()
     page.locator("#stop").focus()
     page.keyboard.press("Enter")
     expect_verdict(page, "Stopped by you.")
@@ -139,27 +167,23 @@ def test_words_are_shown_as_words(page):
 
 
 def test_a_run_is_paused_stepped_and_goes_on(page):
-    dawdle(page)
-    say(page, COMMAND)
-    page.click("#pause")
-    expect(page.locator("#pause")).to_have_text("Go on")
+    expect(page.locator("#episode")).to_be_disabled()
+    drive_and_pause(page)
     page.wait_for_timeout(300)
-    before = page.inner_text("#clock")
+    before = seconds(page)
     page.click("#step")
-    expect(page.locator("#clock")).not_to_have_text(before)
-    hurry(page)
-    page.click("#pause")
+    expect(page.locator("#clock")).not_to_have_text(f"{before:.2f} s")
+    assert 0.0 < seconds(page) - before < 0.2
+    go_on(page)
     expect_verdict(page, "Done.")
 
 
 def test_a_click_shuts_a_door_and_the_robot_does_not_get_in(page):
-    dawdle(page)
-    say(page, COMMAND)
-    expect(page.locator("#pause")).to_be_enabled()
+    drive_and_pause(page)
     page.click("summary")
     page.click("[data-door=south_2]")
     expect(page.locator("[data-door=south_2]")).to_contain_text("shut, open it")
-    hurry(page)
+    go_on(page)
     expect_verdict(page, "Not done")
 
 
@@ -174,23 +198,29 @@ def test_boxes_are_put_down_by_the_cross_and_taken_away(page):
     expect(page.locator("#clear-boxes")).to_be_disabled()
 
 
-@pytest.mark.parametrize(("what", "told"), [("box", "A box is"), ("person", "A person walks")])
-def test_a_box_and_a_person_come_into_a_run_that_goes_on(page, what, told):
+def test_a_box_and_a_person_come_into_a_run_that_goes_on(page):
     """The scene stays as it is: neither begins it anew."""
-    dawdle(page)
-    say(page, COMMAND)
-    expect(page.locator("#clock")).to_have_text(LATER)
+    drive_and_pause(page)
     before = seconds(page)
-    page.check(f"input[value={what}]")
-    page.focus("#canvas")
-    for key in (*["Shift+ArrowRight"] * 3, "Shift+ArrowUp", "Enter"):
-        page.keyboard.press(key)
-    expect_verdict(page, told)
+    for what, way, told in (("box", 3, "A box is put down"), ("person", 4, "A person walks")):
+        page.check(f"input[value={what}]")
+        page.focus("#canvas")
+        for key in (*["Shift+ArrowRight"] * way, "Shift+ArrowUp", "Enter"):
+            page.keyboard.press(key)
+        expect_verdict(page, told)
     assert seconds(page) >= before
     assert page.input_value("#people") == "0"
     expect(page.locator("#clear-boxes")).to_be_disabled()
-    hurry(page)
+    go_on(page)
     expect_verdict(page, re.compile("Done|Not done"))
+
+
+def test_a_person_is_added_only_to_a_run(page):
+    page.check("input[value=person]")
+    page.focus("#canvas")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Enter")
+    expect_verdict(page, "while the robot drives")
 
 
 def seconds(page):
@@ -198,12 +228,7 @@ def seconds(page):
     return float(page.inner_text("#clock").split()[0])
 
 
-def test_the_robot_is_placed_by_a_drag(page):
-    place_robot(page)
-    expect(page.locator("#start")).not_to_have_value("-2.5, -0.6, 0.25")
-
-
-def test_a_drag_before_the_first_picture_means_the_same_place(page, browser, address):
+def test_the_robot_is_placed_by_a_drag_also_before_the_first_picture(page, browser, address):
     """A browser that is busy draws late; the place does not depend on it."""
     place_robot(page)
     expect(page.locator("#start")).not_to_have_value("-2.5, -0.6, 0.25")
@@ -254,25 +279,12 @@ def test_a_link_brings_scene_and_command_back(page, browser, address):
     other.close()
 
 
-def test_the_film_is_downloaded(page):
+def test_the_film_is_downloaded(driven):
     pytest.importorskip("pygame")
-    hurry(page)
-    say(page, COMMAND)
-    expect_verdict(page, "Done.")
-    with page.expect_download() as download:
-        page.click("#film")
+    with driven.expect_download() as download:
+        driven.click("#film")
     assert download.value.suggested_filename == "semnav.gif"
     assert Path(download.value.path()).read_bytes().startswith(b"GIF89a")
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_nothing_is_wider_than_a_phone_and_text_can_be_read(browser, address, scheme):
-    page, _ = new_page(browser, viewport=PHONE, color_scheme=scheme)
-    visit(page, address)
-    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
-    ratios = page.evaluate(CONTRASTS)
-    assert min(ratios.values()) >= 4.5, ratios
-    page.close()
 
 
 def test_everything_that_can_be_used_has_a_name(page):
@@ -311,10 +323,13 @@ CONTRASTS = """() => {
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing_serious(browser, address, scheme):
+def test_all_can_be_used_and_read_also_on_a_phone(browser, address, scheme):
     """Deque's checker of accessibility: the scene, a question, and the drawing board."""
     page, _ = new_page(browser, color_scheme=scheme)
     visit(page, address)
+    ratios = page.evaluate(CONTRASTS)
+    assert min(ratios.values()) >= 4.5, ratios
+    wide = page.viewport_size
     for state in ("scene", "question", "board"):
         if state == "question":
             say(page, asked_about()[0])
@@ -323,52 +338,44 @@ def test_axe_finds_nothing_serious(browser, address, scheme):
             page.click("#open-board")
             expect(page.locator("#draw")).to_be_visible()
         assert serious_findings(page) == []
+        page.set_viewport_size(PHONE)
+        assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
+        page.set_viewport_size(wide)
     page.close()
 
 
-def test_a_run_is_looked_at_again(page):
-    hurry(page)
-    say(page, COMMAND)
-    expect(page.locator("#replay")).to_be_hidden()
-    expect_verdict(page, "Done.")
-    end = page.inner_text("#clock")
-    page.click("#back")
-    expect(page.locator("#clock")).not_to_have_text(end)
-    page.fill("#moment", "0")
-    expect(page.locator("#back")).to_be_disabled()
-    expect(page.locator("#clauses li")).to_have_class("active")
-    dawdle(page)
-    page.click("#play")
-    expect(page.locator("#play")).to_have_text("Halt")
-    hurry(page)
-    expect(page.locator("#clock")).to_have_text(end)
-    expect(page.locator("#play")).to_have_text("Replay")
-    expect(page.locator("#clauses li")).to_have_class("done")
+def test_a_run_is_looked_at_again(driven):
+    end = driven.inner_text("#clock")
+    driven.click("#back")
+    expect(driven.locator("#clock")).not_to_have_text(end)
+    driven.fill("#moment", "0")
+    expect(driven.locator("#back")).to_be_disabled()
+    expect(driven.locator("#clauses li")).to_have_class("active")
+    driven.select_option("#speed", "0.25")
+    driven.click("#play")
+    expect(driven.locator("#play")).to_have_text("Halt")
+    hurry(driven)
+    expect(driven.locator("#clock")).to_have_text(end)
+    expect(driven.locator("#play")).to_have_text("Replay")
+    expect(driven.locator("#clauses li")).to_have_class("done")
 
 
 def test_a_paused_run_that_is_looked_at_goes_on_at_its_end(page):
-    dawdle(page)
-    say(page, COMMAND)
-    expect(page.locator("#clock")).to_have_text(LATER)
-    page.click("#pause")
+    drive_and_pause(page)
     page.fill("#moment", "0")
     before = page.inner_text("#clock")
-    hurry(page)
-    page.click("#pause")
+    go_on(page)
     expect(page.locator("#clock")).not_to_have_text(before)
     expect_verdict(page, "Done.")
 
 
-def test_episode_and_floor_plan_are_downloaded(page):
-    expect(page.locator("#episode")).to_be_disabled()
-    say(page, COMMAND)
-    expect(page.locator("#episode")).to_be_enabled()
+def test_episode_and_floor_plan_are_downloaded(driven):
     for button, name, begin in (
         ("#episode", "episode.jsonl", b'{"id":"page-00000"'),
         ("#plan-copy", "heidelberg_hallway.geojson", b'{"type": "FeatureCollection"'),
     ):
-        with page.expect_download() as download:
-            page.click(button)
+        with driven.expect_download() as download:
+            driven.click(button)
         assert download.value.suggested_filename == name
         assert Path(download.value.path()).read_bytes().startswith(begin)
 
@@ -496,12 +503,3 @@ def test_a_door_is_drawn_by_the_keyboard_alone(page):
     for key in ("ArrowRight", "Enter", "Shift+ArrowUp", "Alt+ArrowUp", "Enter"):
         page.keyboard.press(key)
     expect(page.locator("#undo")).to_be_enabled()
-
-
-def test_the_board_fits_a_phone(browser, address):
-    page, _ = new_page(browser, viewport=PHONE)
-    visit(page, address)
-    page.click("#open-board")
-    expect(page.locator("#draw")).to_be_visible()
-    assert page.evaluate("document.documentElement.scrollWidth") <= PHONE["width"]
-    page.close()

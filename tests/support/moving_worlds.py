@@ -27,7 +27,7 @@ def deepest_overlap(world: World) -> float:
     assert world.moving is not None
     discs = world.moving.discs
     body, people = footprint(world.robot, world.pose), shapely.points(discs[:, :2])
-    leaves = shapely.linestrings(world.moving.doors.segments.reshape(-1, 2, 2))
+    leaves = shapely.linestrings(world.moving.segments.reshape(-1, 2, 2))
     walls = shapely.linestrings(world.still.segments.reshape(-1, 2, 2))
     solid = np.concatenate((walls, leaves))
     radii = discs[:, 2]

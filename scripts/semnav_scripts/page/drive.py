@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
-
-import numpy as np
-from shapely import Polygon
 
 from semnav_agents.base import PlanReader
 from semnav_agents.registry import make_agent
@@ -18,16 +14,13 @@ from semnav_env.rendering.film import STEPS_PER_FRAME
 from semnav_env.rendering.frame import Frame
 from semnav_env.rendering.snapshot import snapshot
 from semnav_env.world.dynamics import Dynamics
+from semnav_env.world.dynamics.boxes import box_corners, check_box_place
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_env.world.maps.floor_plan import Material, Surface
 from semnav_features.frames import Point, Pose
-from semnav_features.validation import require
 from semnav_scripts.page.frame_message import frame_message
 from semnav_scripts.page.plan_message import body_message, plan_message
 from semnav_scripts.page.requests import MAX_BOXES, OWN, SceneRequest
-
-BOX_SIDE = 0.5
-"""Length of a side of a box, metres."""
 
 BY_HAND_ONLY = sys.float_info.min
 """Probability of a door to change by itself: above 0, so that leaves hang, and never drawn."""
@@ -133,11 +126,10 @@ class PageDrive:
         Raises:
             ValueError: it has no leaf that can swing.
         """
-        moving = self.env.world.moving
-        if door not in self.swinging or moving is None:
+        if door not in self.swinging:
             known = ", ".join(self.swinging) or "none"
             raise ValueError(f"door is {door!r:.80}; doors with a leaf that can swing: {known}")
-        moving.doors.hold(door, shut)
+        self.env.world.hold_door(door, shut)
 
     def put(self, what: str, place: Point) -> None:
         """Put down a box, or let a person walk from a place; both stay until the next command.
@@ -148,7 +140,7 @@ class PageDrive:
         if self.over:
             raise ValueError("nothing drives; give a command first")
         if what == "box":
-            self.env.world.add_box(np.array(list(_square(*place))[:-1]))
+            self.env.world.add_box(place)
         else:
             self.env.world.add_person(place)
         self._seen = None
@@ -195,19 +187,15 @@ def _with_boxes(plan: FloorPlan, places: tuple[Point, ...]) -> FloorPlan:
     """The plan with a box at each place; itself without places.
 
     Raises:
-        ValueError: a box would not lie inside the plan.
+        ValueError: a box would not stand on free floor.
     """
     if not places:
         return plan
-    outlines = [tuple(_square(*place)) for place in places]
-    for place, outline in zip(places, outlines, strict=True):
-        require(plan.boundary.covers(Polygon(outline)), "box", place, "inside the floor plan")
-    boxes = (Surface(outline, Material.FURNITURE) for outline in outlines)
+    for place in places:
+        check_box_place(plan, place)
+    outlines = (box_corners(place).tolist() for place in places)
+    boxes = (
+        Surface(tuple((x, y) for x, y in (*outline, outline[0])), Material.FURNITURE)
+        for outline in outlines
+    )
     return replace(plan, surfaces=(*plan.surfaces, *boxes))
-
-
-def _square(x: float, y: float) -> Iterator[Point]:
-    """The closed outline of a box."""
-    half = BOX_SIDE / 2
-    for dx, dy in ((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)):
-        yield x + dx * half, y + dy * half

@@ -12,7 +12,7 @@ FIRST = SceneRequest(pose=(-2.5, -0.6, 0.25))
 COMMANDS = ("fahr durch die zweite Tür rechts", "go through the second door on the right")
 """Commands that can be carried out there, in every language."""
 
-PERSON = (0.5, -0.6)
+PERSON = (1.0, 0.4)
 """Where a person begins to walk, metres, away from the robot."""
 
 STEPS = 30

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_env.world.dynamics.settings import AWAY
 from semnav_env.world.physics import World
 from semnav_features.door_passages import DoorPassage, PassableDoor, door_passages
 from semnav_features.frames import FloatArray, Pose, Twist
@@ -39,7 +40,8 @@ class Recording:
         impulses: sum of the magnitudes of the impulses received during the step, N s, shape
             (n + 1,).
         period: duration of a step, seconds.
-        people: x, y and radius of each person, metres, shape (n + 1, k, 3).
+        people: x, y and radius of each person, metres, shape (n + 1, k, 3); all three are `AWAY`
+            until somebody is added by hand.
         leaves: the leaves of doors that open and close as they stood at the end: x1, y1, x2, y2
             in metres, shape (m, 4).
 
@@ -194,4 +196,7 @@ class Recorder:
         """People and leaves, if there may be any."""
         if self._world.moving is None:
             return None, None
-        return np.stack(self._people), self._world.moving_shapes[1].copy()
+        people = np.full((len(self._people), len(self._people[-1]), 3), AWAY)
+        for moment, there in zip(people, self._people, strict=True):
+            moment[: len(there)] = there
+        return people, self._world.moving_shapes[1].copy()

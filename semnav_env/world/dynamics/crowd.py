@@ -92,7 +92,9 @@ class Crowd:
             ValueError: the place is not free, or leads nowhere.
         """
         count = len(self.places)
-        ways = self._ways_to_another_place(place) if self._is_free(place, count, robot) else None
+        rng = np.random.default_rng(count)  # of its own: who is refused draws nothing
+        free = self._is_free(place, count, robot)
+        ways = self._ways_to_another_place(place, rng) if free else None
         if ways is None:
             right = f"a free place {START_CLEARANCE} m or more from the robot, with a way elsewhere"
             raise ValueError(f"person is {place}; it must be {right}")
@@ -142,12 +144,12 @@ class Crowd:
             self._best[i] = left if nearer else self._best[i]
             self._waited[i] = 0.0 if nearer else self._waited[i] + seconds
             if left < ARRIVAL_DISTANCE or self._waited[i] > self._dynamics.walking.patience:
-                self._ways[i] = self._ways_to_another_place((x, y)) or ways
+                self._ways[i] = self._ways_to_another_place((x, y), self._rng) or ways
                 self._best[i], self._waited[i] = math.inf, 0.0
 
-    def _ways_to_another_place(self, place: Point) -> WaysTo | None:
+    def _ways_to_another_place(self, place: Point, rng: np.random.Generator) -> WaysTo | None:
         """The ways to a place that can be reached from there; None if none was found."""
-        for index in self._rng.permutation(len(self._routes.places))[:8]:
+        for index in rng.permutation(len(self._routes.places))[:8]:
             ways = self._routes.to(int(index))
             if ARRIVAL_DISTANCE < look_ahead(*ways.field, *place)[2] < math.inf:
                 return ways
@@ -157,7 +159,7 @@ class Crowd:
         for _ in range(MAX_PLACEMENT_DRAWS):
             place = self._random_place()
             if self._is_free(place, i, start):
-                ways = self._ways_to_another_place(place)
+                ways = self._ways_to_another_place(place, self._rng)
                 if ways is not None:
                     return place, ways
         raise ValueError(

@@ -13,9 +13,6 @@ from semnav_features.frames import FloatArray
 from semnav_features.kernels.compiling import kernel
 from semnav_features.validation import require
 
-AWAY = 1e6
-"""Both coordinates of what is not there yet, metres: out of reach of everything."""
-
 
 class SwingingDoors:
     """The leaves of a plan's doors.
@@ -27,25 +24,22 @@ class SwingingDoors:
     Args:
         leaves: leaves of the doors that can open and close.
         dynamics: settings of how many do, and how.
-        spare: number of further rows of `segments`, for what is added by hand.
 
     Attributes:
         leaves: the leaves as given.
         angles: angle by which each stands open, radians, with the sign of its swing, shape (m,).
-        segments: hinge and tip of each, metres, then the spare rows, `AWAY` at first, shape
-            (m + spare, 4); always the same array.
+        segments: hinge and tip of each, metres, shape (m, 4); always the same array.
     """
 
-    def __init__(self, leaves: tuple[PlanLeaf, ...], dynamics: Dynamics, spare: int = 0) -> None:
+    def __init__(self, leaves: tuple[PlanLeaf, ...], dynamics: Dynamics) -> None:
         self.leaves, self._dynamics = leaves, dynamics
         self.angles = np.zeros(len(leaves))
-        self.segments = np.full((len(leaves) + spare, 4), AWAY)
+        self.segments = np.zeros((len(leaves), 4))
         self.begin(np.random.default_rng(0))
 
     def begin(self, rng: np.random.Generator) -> None:
         """Open all of them and draw which ones will change, and when first."""
         self._rng = rng
-        self.segments[len(self.leaves) :] = AWAY
         chosen = rng.random(len(self.leaves)) < self._dynamics.changing_doors
         self._closing = chosen.copy()
         self._held = np.zeros(len(self.leaves), dtype=bool)
@@ -57,7 +51,7 @@ class SwingingDoors:
     def hold(self, door: str, shut: bool) -> None:
         """Shut a door by hand, or open it; it stays so until the next episode.
 
-        Its leaf swings as the others do. A copy of the world that is pickled forgets it.
+        Its leaf swings as the others do. See `World.hold_door`.
 
         Args:
             door: name of a door that is among `leaves`.

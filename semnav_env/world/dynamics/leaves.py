@@ -49,6 +49,17 @@ class PlanLeaf:
         x, y = self.hinge
         return x + self.length * math.cos(direction), y + self.length * math.sin(direction)
 
+    @property
+    def swept(self) -> Polygon:
+        """The area that it sweeps, less a margin at the hinge and at both ends of the swing."""
+        sign = math.copysign(1.0, self.swing)
+        angles = np.linspace(sign * ANGLE_MARGIN, self.swing - sign * ANGLE_MARGIN, 16)
+        x, y = self.hinge
+        rim = [self.tip(angle) for angle in angles]
+        share = HINGE_RADIUS / self.length
+        inner = [(x + share * (px - x), y + share * (py - y)) for px, py in rim]
+        return Polygon([*rim, *inner[::-1]])
+
 
 def with_leaves(plan: FloorPlan) -> FloorPlan:
     """The plan with an open leaf at every door that has none and has room for one.
@@ -56,13 +67,13 @@ def with_leaves(plan: FloorPlan) -> FloorPlan:
     It is hung into the room rather than into the corridor, and where it meets no other leaf.
     """
     hung = []
-    taken = [_swept(leaf) for leaf in swinging_leaves(plan)[0]]
+    taken = [leaf.swept for leaf in swinging_leaves(plan)[0]]
     for door in plan.doors:
         if door.open and not any(_hangs(surface, door) for surface in plan.surfaces):
             choices = (leaf for leaf in _new_leaves(door, plan) if _has_room(leaf, plan))
             leaf = next((leaf for leaf in choices if not _meets(leaf, taken)), None)
             if leaf is not None:
-                taken.append(_swept(leaf))
+                taken.append(leaf.swept)
                 hung.append(Surface((leaf.hinge, leaf.tip(leaf.swing)), Material.LEAF))
     return replace(plan, surfaces=(*plan.surfaces, *hung)) if hung else plan
 
@@ -93,7 +104,7 @@ def swinging_leaves(plan: FloorPlan) -> tuple[tuple[PlanLeaf, ...], FloorPlan]:
         hanging = [surface for surface in plan.surfaces if _hangs(surface, door)]
         leaf = _as_leaf(hanging[0], door) if door.open and len(hanging) == 1 else None
         if leaf and _has_room(leaf, plan, hanging[0]) and not _meets(leaf, taken):
-            taken.append(_swept(leaf))
+            taken.append(leaf.swept)
             leaves.append(leaf)
             drawn.append(hanging[0])
     if not leaves:
@@ -141,24 +152,13 @@ def _new_leaves(door: PlanDoor, plan: FloorPlan) -> list[PlanLeaf]:
 
 
 def _in_corridor(leaf: PlanLeaf, plan: FloorPlan) -> bool:
-    swept = _swept(leaf)
+    swept = leaf.swept
     return any(region.polygon.intersection(swept).area > 0.1 for region in plan.corridors)
-
-
-def _swept(leaf: PlanLeaf) -> Polygon:
-    """The area that a leaf sweeps, less a margin at the hinge and at both ends of the swing."""
-    sign = math.copysign(1.0, leaf.swing)
-    angles = np.linspace(sign * ANGLE_MARGIN, leaf.swing - sign * ANGLE_MARGIN, 16)
-    x, y = leaf.hinge
-    rim = [leaf.tip(angle) for angle in angles]
-    share = HINGE_RADIUS / leaf.length
-    inner = [(x + share * (px - x), y + share * (py - y)) for px, py in rim]
-    return Polygon([*rim, *inner[::-1]])
 
 
 def _meets(leaf: PlanLeaf, taken: Sequence[Polygon]) -> bool:
     """Whether a leaf sweeps an area that another leaf sweeps too."""
-    swept = _swept(leaf)
+    swept = leaf.swept
     return any(swept.intersects(other) for other in taken)
 
 
@@ -166,7 +166,7 @@ def _has_room(leaf: PlanLeaf, plan: FloorPlan, own: Surface | None = None) -> bo
     """Whether nothing stands where the leaf swings."""
     if abs(leaf.swing) < 4 * ANGLE_MARGIN:
         return False
-    swept = _swept(leaf)
+    swept = leaf.swept
     if not plan.boundary.covers(swept):
         return False
     rows = plan.solids.query(swept, predicate="intersects").tolist()

@@ -10,27 +10,28 @@ import shapely
 
 from semnav_env.robots import RobotSpec
 from semnav_env.world.dynamics.body_row import as_body
+from semnav_env.world.dynamics.boxes import (
+    BOX_CLEARANCE,
+    SIDES,
+    box_corners,
+    box_sides,
+    check_box_place,
+)
 from semnav_env.world.dynamics.crowd import Crowd
-from semnav_env.world.dynamics.doors import AWAY, SwingingDoors
-from semnav_env.world.dynamics.leaves import PlanLeaf, swinging_leaves
-from semnav_env.world.dynamics.settings import MAX_SPEED_FACTOR, Dynamics
+from semnav_env.world.dynamics.doors import SwingingDoors
+from semnav_env.world.dynamics.leaves import swinging_leaves
+from semnav_env.world.dynamics.settings import AWAY, MAX_SPEED_FACTOR, Dynamics
 from semnav_env.world.dynamics.social import SocialRecord, gaps
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.maps.placement import footprint
 from semnav_features.frames import FloatArray, Point, Pose, Twist
 from semnav_features.validation import require
 
-BOX_CLEARANCE = 0.05
-"""Space that is left free around a box that is put down by hand, metres."""
-
-SIDES = 4
-"""Segments of a box."""
-
 
 class Moving:
-    """People and leaves in a floor plan.
+    """People, leaves, and boxes that were put down by hand in a floor plan.
 
-    Their motion follows from seed, start and the robot's motion alone.
+    Their motion follows from seed, start, the robot's motion and what was added by hand alone.
 
     Args:
         plan: the plan with its doors as they stand at first.
@@ -42,8 +43,8 @@ class Moving:
         still: the plan without what can move.
         crowd: the people.
         doors: the leaves.
-        buffers: discs and segments as a lidar reads them, which may take what is added by hand;
-            always the same arrays. What is not there yet is far away.
+        buffers: discs and segments as a lidar reads them, with rows for what may be added by hand;
+            always the same arrays. What is not there yet is `AWAY`.
         record: gaps and times to collision between people and robot.
     """
 
@@ -52,16 +53,21 @@ class Moving:
     ) -> None:
         leaves, self.still = swinging_leaves(plan) if dynamics.changing_doors else ((), plan)
         self.crowd = Crowd(plan, self.still, dynamics)
-        self.doors = SwingingDoors(leaves, dynamics, SIDES * dynamics.by_hand)
+        self.doors = SwingingDoors(leaves, dynamics)
+        self._dynamics, self._boxes = dynamics, 0
         discs = np.full((dynamics.pedestrians + dynamics.by_hand, 3), AWAY)
-        discs[:, 2] = dynamics.walking.radius
-        self.buffers = discs, self.doors.segments
-        self._plan, self._boxes, self._by_hand = plan, 0, dynamics.by_hand
+        discs[:, 2] = self._radius = dynamics.walking.radius
+        self.buffers = discs, np.full((len(leaves) + SIDES * dynamics.by_hand, 4), AWAY)
+        self._show()
         self.record = SocialRecord()
         self._robot, self._seconds = robot, seconds
-        self._radius = dynamics.walking.radius
         fastest = dynamics.walking.speed + 2.0 * dynamics.walking.spread
         self._guard = seconds * (_max_point_speed(robot) + MAX_SPEED_FACTOR * fastest) + 0.05
+
+    def _show(self) -> None:
+        """Write where people and leaves are into the buffers."""
+        self.discs[:, :2] = self.crowd.places
+        self.buffers[1][: len(self.doors.leaves)] = self.doors.segments
 
     @property
     def discs(self) -> FloatArray:
@@ -69,44 +75,49 @@ class Moving:
         return self.buffers[0][: len(self.crowd.places)]
 
     @property
-    def shapes(self) -> tuple[FloatArray, FloatArray]:
-        """Discs, shape (n, 3), and leaves and sides of boxes, shape (m, 4)."""
-        return self.discs, self.doors.segments[: len(self.doors.leaves) + SIDES * self._boxes]
+    def segments(self) -> FloatArray:
+        """Leaves, then sides of boxes, as x1, y1, x2, y2, metres, shape (m, 4)."""
+        return self.buffers[1][: len(self.doors.leaves) + SIDES * self._boxes]
 
     def add_person(self, place: Point, robot: Pose) -> None:
         """Let one more person walk from a place, until the next episode; see `World.add_person`."""
-        count = len(self.crowd.places)
-        require(count < len(self.buffers[0]), "people", count + 1, f"at most {count} in this run")
-        apart = shapely.distance(shapely.Point(place), _lines(self.doors.segments))
+        self._check_room("people", len(self.crowd.places) - self._dynamics.pedestrians)
+        apart = shapely.distance(shapely.Point(place), _lines(self.segments))
         free = apart.min(initial=math.inf) > self._radius + BOX_CLEARANCE
         require(free, "person", place, "a place that no box and no leaf takes")
         self.crowd.add(place, robot)
-        self.discs[:, :2] = self.crowd.places
+        self._show()
 
-    def add_box(self, outline: FloatArray, robot: Pose) -> None:
+    def add_box(self, middle: Point, robot: Pose) -> None:
         """Put down a box until the next episode; see `World.add_box`."""
-        at_most = f"at most {self._by_hand} in a run"
-        require(self._boxes < self._by_hand, "boxes", self._boxes + 1, at_most)
-        box, where = shapely.Polygon(outline), tuple(outline.mean(axis=0).round(2).tolist())
-        require(self._plan.boundary.covers(box), "box", where, "inside the floor plan")
+        self._check_room("boxes", self._boxes)
+        check_box_place(self.still, middle)
+        box = shapely.Polygon(box_corners(middle))
         near = shapely.distance(box, footprint(self._robot, robot))
-        require(near > BOX_CLEARANCE, "box", where, "beside the robot, not on it")
+        require(near > BOX_CLEARANCE, "box", middle, "beside the robot, not on it")
         people = shapely.distance(box, shapely.points(self.crowd.places)).min(initial=math.inf)
-        require(people > self._radius + BOX_CLEARANCE, "box", where, "where nobody stands")
+        require(people > self._radius + BOX_CLEARANCE, "box", middle, "where nobody stands")
+        boxes = _lines(self.segments[len(self.doors.leaves) :])
+        apart = shapely.distance(box, boxes).min(initial=math.inf) > BOX_CLEARANCE
+        require(apart, "box", middle, "beside the other boxes")
         for leaf in self.doors.leaves:
-            swings = shapely.distance(box, _swept(leaf)) < BOX_CLEARANCE
-            require(not swings, "box", where, f"out of the way of the leaf of door {leaf.door}")
-        row = len(self.doors.leaves) + SIDES * self._boxes
-        self.doors.segments[row : row + SIDES] = np.hstack((outline, np.roll(outline, -1, axis=0)))
+            swings = shapely.distance(box, leaf.swept) < BOX_CLEARANCE
+            require(not swings, "box", middle, f"out of the way of the leaf of door {leaf.door}")
         self._boxes += 1
+        self.segments[-SIDES:] = box_sides(middle)
+
+    def _check_room(self, what: str, added: int) -> None:
+        most = self._dynamics.by_hand
+        require(added < most, f"{what} added by hand", added + 1, f"at most {most}")
 
     def begin(self, start: Pose, seed: int) -> None:
         """Begin an episode with the robot at `start`."""
         people, doors = np.random.default_rng(seed).spawn(2)
         self.doors.begin(doors)
         self.crowd.begin(start, people)
-        self.buffers[0][:, :2], self._boxes = AWAY, 0
-        self.discs[:, :2] = self.crowd.places
+        self._boxes = 0
+        self.buffers[0][:, :2] = self.buffers[1][:] = AWAY
+        self._show()
         self.record.begin()
 
     def step(self, pose: Pose, velocity: Twist) -> None:
@@ -118,9 +129,9 @@ class Moving:
         """
         body = as_body(self._robot, pose, velocity)
         touch = _step_length(self._robot, velocity, self._seconds)
-        self.crowd.step(body, self.doors.segments, self._guard, touch, self._seconds)
+        self.crowd.step(body, self.segments, self._guard, touch, self._seconds)
         self.doors.step(self._seconds, self.crowd.places, self._radius, body, self._guard)
-        self.discs[:, :2] = self.crowd.places
+        self._show()
 
     def note(self, pose: Pose, velocity: Twist) -> None:
         """Record the present gaps between people and robot."""
@@ -128,25 +139,16 @@ class Moving:
         self.record.note(body, self.discs, self.crowd.velocities, self._seconds)
 
     def clearance(self, pose: Pose) -> float:
-        """Distance from the footprint at `pose` to the nearest person or leaf, metres."""
+        """Distance from the footprint at `pose` to the nearest person, leaf or box, metres."""
         body = as_body(self._robot, pose, (0.0, 0.0, 0.0))
         people = gaps(body, self.discs).min(initial=math.inf)
-        leaves = _lines(self.doors.segments)
-        return float(
-            min(
-                people, shapely.distance(footprint(self._robot, pose), leaves).min(initial=math.inf)
-            )
-        )
+        apart = shapely.distance(footprint(self._robot, pose), _lines(self.segments))
+        return float(min(people, apart.min(initial=math.inf)))
 
 
 def _lines(segments: FloatArray) -> Any:
     """The segments as lines, shape (m,)."""
     return shapely.linestrings(segments.reshape(-1, 2, 2))
-
-
-def _swept(leaf: PlanLeaf) -> shapely.Polygon:
-    """The sector over which a leaf swings."""
-    return shapely.Polygon([leaf.hinge, *map(leaf.tip, np.linspace(0.0, leaf.swing, 9).tolist())])
 
 
 def _turning_radius(robot: RobotSpec) -> float:

@@ -18,6 +18,9 @@ MAX_SPEED_FACTOR = 1.3
 """Largest speed of a person as a multiple of the desired one (Helbing and Molnar 1995, below
 equation (12))."""
 
+AWAY = 1e6
+"""Both coordinates of what is not there yet, metres: out of reach of every lidar."""
+
 
 @dataclass(frozen=True)
 class Walking:

@@ -44,9 +44,9 @@ class Movers:
         self._people.append(self._person(radius))
         self._people[-1].position = x, y
 
-    def add_box(self, outline: FloatArray) -> None:
+    def add_box(self, corners: FloatArray) -> None:
         """Make a box solid, corners in metres, shape (4, 2)."""
-        _add(self._space, pymunk.Poly(self._space.static_body, outline.tolist()))
+        _add(self._space, pymunk.Poly(self._space.static_body, corners.tolist()))
 
     def go(self) -> None:
         """Give every body the velocity that leads to its new place."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from array import array
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import pymunk
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from semnav_env.robots import RobotSpec
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
+from semnav_env.world.dynamics.boxes import box_corners
 from semnav_env.world.lidar.moving import NO_MOVING_THINGS
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.maps.placement import clearance, has_room, placement_error
@@ -42,6 +43,9 @@ LONGEST_JUMP = 0.25
 """Longest motion in a substep, as a share of the body's shorter side: a body that jumps to the
 other side of a wall is not stopped by it."""
 
+ByHand: TypeAlias = tuple[int, str, tuple[Any, ...]]
+"""What was done by hand: after how many numbers of the journal, by which method, with what."""
+
 
 class World:
     """One robot in a floor plan.
@@ -51,8 +55,8 @@ class World:
     the pivot keeps a differential drive from moving sideways.
 
     The same commands after the same `reset` give the same poses, bit for bit. Pymunk's own
-    pickles lose cached contacts, so a world is pickled as its start pose and the commands since,
-    which are carried out again when it is loaded.
+    pickles lose cached contacts, so a world is pickled as its start pose, the commands since and
+    what was done by hand, which are carried out again when it is loaded.
 
     Args:
         floor_plan: all of its segments are solid, glass too.
@@ -63,7 +67,7 @@ class World:
         dynamics: people, doors and furniture that move.
 
     Attributes:
-        moving: people and leaves; None where only the robot moves.
+        moving: people, leaves and boxes put down by hand; None where only the robot moves.
         still: the floor plan without moving things.
         record: the robot and its motion as compiled code takes them, dtype `DRIVE`; always the
             same array.
@@ -101,7 +105,7 @@ class World:
         self.control_hz, self.substeps = control_hz, substeps
         self._at_rest()
         self._start: Pose | None = None
-        self._journal = array("d")
+        self._journal, self._by_hand = array("d"), list[ByHand]()
         self._seed = 0
 
     def _at_rest(self) -> None:
@@ -137,7 +141,8 @@ class World:
         problem = placement_error(self.floor_plan, self.robot, start)
         if problem is not None:
             raise ValueError(problem)
-        self._start, self._seed, self._journal = start, seed, array("d")
+        self._start, self._seed = start, seed
+        self._journal, self._by_hand = array("d"), []
         self._build(start)
         read_motion(self.record, self._body)
         self.record["demand"] = 0.0, 0.0, 0.0
@@ -229,39 +234,58 @@ class World:
     def add_person(self, place: Point) -> None:
         """Let one more person walk about from a place, until the next `reset`.
 
-        A copy of the world that is pickled forgets what was added by hand.
-
         Args:
             place: x and y, metres, world frame.
 
         Raises:
-            ValueError: the place is not free, or there are as many as `Dynamics.by_hand` allows.
+            ValueError: no two finite numbers, the place is not free, or there are as many as
+                `Dynamics.by_hand` allows.
             RuntimeError: before the first `reset`.
         """
-        self._require_by_hand().add_person(place, self.pose)
+        place = _point(place, "person")
+        self._where_things_move("added").add_person(place, self.pose)
         self._movers.add_person()
+        self._note_by_hand("add_person", place)
 
-    def add_box(self, outline: FloatArray) -> None:
-        """Put down a box, which stays until the next `reset`.
-
-        A copy of the world that is pickled forgets what was added by hand.
+    def add_box(self, middle: Point) -> None:
+        """Put down a box, a square of `BOX_SIDE` along the axes, which stays until `reset`.
 
         Args:
-            outline: its four corners in turn, metres, world frame, shape (4, 2).
+            middle: x and y, metres, world frame.
 
         Raises:
-            ValueError: somebody, the robot or a leaf that swings is in its way, it lies outside, or
-                there are as many as `Dynamics.by_hand` allows.
+            ValueError: no two finite numbers; a wall, furniture, somebody, the robot, another box
+                or a leaf that swings is in its way; or there are as many as `Dynamics.by_hand`
+                allows.
             RuntimeError: before the first `reset`.
         """
-        self._require_by_hand().add_box(outline, self.pose)
-        self._movers.add_box(outline)
+        middle = _point(middle, "box")
+        self._where_things_move("added").add_box(middle, self.pose)
+        self._movers.add_box(box_corners(middle))
+        self._note_by_hand("add_box", middle)
 
-    def _require_by_hand(self) -> Moving:
+    def hold_door(self, door: str, shut: bool) -> None:
+        """Shut a door by hand, or open it; it stays so until the next `reset`.
+
+        Args:
+            door: name of a door with a leaf that can swing.
+            shut: whether it is to be shut.
+
+        Raises:
+            ValueError: no such leaf.
+            RuntimeError: before the first `reset`.
+        """
+        self._where_things_move("shut").doors.hold(door, shut)
+        self._note_by_hand("hold_door", door, shut)
+
+    def _where_things_move(self, done: str) -> Moving:
         self._require_reset()
         if self.moving is None:
-            raise ValueError("nothing can be added to this world: Dynamics.by_hand is 0")
+            raise ValueError(f"nothing can be {done} in this world, where only the robot moves")
         return self.moving
+
+    def _note_by_hand(self, method: str, *values: Any) -> None:
+        self._by_hand.append((len(self._journal), method, values))
 
     @property
     def moving_buffers(self) -> tuple[FloatArray, FloatArray]:
@@ -271,7 +295,8 @@ class World:
     @property
     def moving_shapes(self) -> tuple[FloatArray, FloatArray]:
         """Discs of people, shape (n, 3), and leaves and sides of added boxes, shape (m, 4)."""
-        return NO_MOVING_THINGS if self.moving is None else self.moving.shapes
+        moving = self.moving
+        return NO_MOVING_THINGS if moving is None else (moving.discs, moving.segments)
 
     def social(self) -> dict[str, Any]:
         """Gaps between people and robot since the reset; empty if only the robot moves."""
@@ -333,17 +358,24 @@ class World:
             "still",
             "_period",
         )
-        return {name: getattr(self, name) for name in (*kept, "_start", "_seed", "_journal")}
+        journal = "_start", "_seed", "_journal", "_by_hand"
+        return {name: getattr(self, name) for name in (*kept, *journal)}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
         self._at_rest()
-        commands, start = state["_journal"], state["_start"]
-        self._journal = array("d")
+        commands, by_hand, start = state["_journal"], state["_by_hand"], state["_start"]
+        self._journal, self._by_hand = array("d"), []
         if start is not None:
             self._begin(start, state["_seed"])
-            for i in range(0, len(commands), 3):
-                self.step(tuple(commands[i : i + 3]))
+            for until, method, values in by_hand:
+                self._step_again(commands[len(self._journal) : until])
+                getattr(self, method)(*values)
+            self._step_again(commands[len(self._journal) :])
+
+    def _step_again(self, commands: array[float]) -> None:
+        for i in range(0, len(commands), 3):
+            self.step((commands[i], commands[i + 1], commands[i + 2]))
 
 
 def _finite(values: Any, name: str, parts: str) -> tuple[float, float, float]:
@@ -351,3 +383,10 @@ def _finite(values: Any, name: str, parts: str) -> tuple[float, float, float]:
     if numbers is None or len(numbers) != 3:
         raise ValueError(f"{name} is {shown(values)}; it must be three finite numbers: {parts}")
     return numbers[0], numbers[1], numbers[2]
+
+
+def _point(values: Any, name: str) -> Point:
+    numbers = finite_floats(values)
+    if numbers is None or len(numbers) != 2:
+        raise ValueError(f"{name} is {shown(values)}; it must be two finite numbers: (x, y)")
+    return numbers[0], numbers[1]
