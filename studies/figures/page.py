@@ -25,6 +25,12 @@ SIZE = {"width": 1180, "height": 800}
 SHOWN_AT = re.compile(r"^[4-9]\.\d+ s$")
 """Simulated time of the picture: the robot has counted the doors."""
 
+ADDED = {"box": (2.5, 1.1), "person": (1.0, 0.9)}
+"""What is put into the run, and where, metres."""
+
+SEEN_AFTER = 8
+"""Control periods from then to the picture."""
+
 DRAWN = "office_cross"
 """The floor plan whose map is drawn on."""
 
@@ -49,10 +55,18 @@ def main() -> None:
 
 
 def _look_at_a_run(page: Any) -> None:
+    """Pause, put a box and a person into the run, and let the robot see them."""
     from playwright.sync_api import expect
 
     expect(page.locator("#clock")).to_have_text(SHOWN_AT, timeout=120_000)
     page.click("#pause")
+    pixel = _pixels(page, load_floor_plan("heidelberg_hallway").boundary.bounds, (0.0, 0.0))
+    for what, place in ADDED.items():
+        page.check(f"input[value={what}]")
+        page.mouse.click(*pixel(place))
+        expect(page.locator("#verdict")).to_contain_text(what, timeout=60_000)
+    for _ in range(SEEN_AFTER):
+        page.click("#step")
     page.wait_for_timeout(500)
 
 

@@ -190,8 +190,11 @@ def test_a_click_shuts_a_door_and_the_robot_does_not_get_in(page):
 def test_boxes_are_put_down_by_the_cross_and_taken_away(page):
     page.check("input[value=box]")
     page.focus("#canvas")
-    for _ in range(2):
-        page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Enter")
+    expect_verdict(page, "no wall")
+    page.keyboard.press("Shift+ArrowUp")
     page.keyboard.press("Enter")
     expect(page.locator("#clear-boxes")).to_be_enabled()
     page.click("#clear-boxes")

@@ -43,7 +43,6 @@ def check_box_place(plan: FloorPlan, middle: Point) -> None:
     """
     box = Polygon(box_corners(middle))
     require(plan.boundary.covers(box), "box", middle, "inside the floor plan")
-    touched = plan.solids.query(box, predicate="intersects")
-    touched_in = plan.furniture.query(box, predicate="covered_by")
-    clear = len(touched) == len(touched_in) == 0
-    require(clear, "box", middle, f"{BOX_SIDE / 2} m or more from walls and furniture")
+    clear = len(plan.solids.query(box, predicate="intersects")) == 0
+    clear = clear and len(plan.furniture.query(box, predicate="covered_by")) == 0
+    require(clear, "box", middle, f"where {BOX_SIDE} m square touch no wall and no furniture")

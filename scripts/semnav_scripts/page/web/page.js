@@ -277,19 +277,17 @@ function zoom(factor) {
   redraw();
 }
 
-/** Draw soon, once for all that has changed by then. */
+/** Draw soon, once for all that has changed by then; a click means the right place before, too. */
 function redraw() {
-  if (due || !scene) return;
+  if (!scene) return;
+  camera.lookAt(hand.cross ?? (board.open ? camera.centre : moment?.pose ?? scene.start));
+  if (due) return;
   due = true;
   requestAnimationFrame(() => {
     due = false;
     const context = canvas.getContext("2d");
-    if (board.open) {
-      camera.lookAt(hand.cross ?? camera.centre);
-      return drawBoard(context, camera, board.plan, board.faults, hand);
-    }
-    camera.lookAt(hand.cross ?? moment?.pose ?? scene.start);
-    draw(context, camera, scene, moment, { trail: trail.slice(0, reach), ...hand });
+    if (board.open) drawBoard(context, camera, board.plan, board.faults, hand);
+    else draw(context, camera, scene, moment, { trail: trail.slice(0, reach), ...hand });
   });
 }
 
