@@ -25,8 +25,11 @@ SIZE = {"width": 1180, "height": 800}
 SHOWN_AT = re.compile(r"^[4-9]\.\d+ s$")
 """Simulated time of the picture: the robot has counted the doors."""
 
-ADDED = {"box": (2.5, 1.1), "person": (1.0, 0.9)}
-"""What is put into the run, and where, metres."""
+ADDED = (
+    ("box", (5.5, 1.6), "A box is put down."),
+    ("person", (7.8, 1.9), "A person walks about now."),
+)
+"""What is put into the run, where, metres, and what is told."""
 
 SEEN_AFTER = 8
 """Control periods from then to the picture."""
@@ -60,14 +63,16 @@ def _look_at_a_run(page: Any) -> None:
 
     expect(page.locator("#clock")).to_have_text(SHOWN_AT, timeout=120_000)
     page.click("#pause")
-    pixel = _pixels(page, load_floor_plan("heidelberg_hallway").boundary.bounds, (0.0, 0.0))
-    for what, place in ADDED.items():
+    bounds = load_floor_plan("heidelberg_hallway").boundary.bounds
+    for what, place, told in ADDED:
         page.check(f"input[value={what}]")
-        page.mouse.click(*pixel(place))
-        expect(page.locator("#verdict")).to_contain_text(what, timeout=60_000)
+        page.locator("#canvas").scroll_into_view_if_needed()
+        page.mouse.click(*_pixels(page, bounds, (0.0, 0.0))(place))
+        expect(page.locator("#verdict")).to_have_text(told, timeout=60_000)
     for _ in range(SEEN_AFTER):
         page.click("#step")
     page.wait_for_timeout(500)
+    page.evaluate("scrollTo(0, 0)")
 
 
 def _draw(page: Any, folder: Path) -> None:
@@ -120,7 +125,9 @@ def _gesture(page: Any, tool: str, name: str, *places: tuple[float, float]) -> N
 
 
 def keep(page: Any, name: str) -> None:
-    """Write what a browser shows as a picture of few colours."""
+    """Write what a browser shows as a picture of few colours, the seldom ones among them."""
     path = IMAGES / name
     page.screenshot(path=path)
-    Image.open(path).quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
+    seen = Image.open(path).convert("RGB")
+    method = Image.Quantize.FASTOCTREE
+    seen.quantize(128, method, dither=Image.Dither.NONE).save(path, optimize=True)
