@@ -66,10 +66,11 @@ nightly: slow soak versions coverage
 
 # The node of a robot and a simulated robot in two processes, with a ROS master of Debian's packages and
 # by DDS. Where the packages cannot be installed, the tests that need them skip, and say why.
+WIRES ?=
 ros: $(VENV)/.test
 	.ci/debian python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs \
 	  python3-visualization-msgs python3-tf2-msgs python3-move-base-msgs
-	$(BIN)/python -m pytest tests/ros/test_wires.py
+	$(BIN)/python -m pytest tests/ros/test_wires.py -k "$(WIRES)"
 
 lint: $(VENV)/.test
 	$(BIN)/ruff check .

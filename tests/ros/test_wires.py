@@ -30,6 +30,9 @@ WORKER = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
 PORT, DOMAIN = 11371 + WORKER, 93 + WORKER
 """Of this process of the tests: several may run at a time."""
 
+PATIENCE = 900
+"""Time after which a process counts as hung, seconds; a loaded machine took more than 150."""
+
 needs_dds = pytest.mark.skipif(
     importlib.util.find_spec("cyclonedds") is None,
     reason='cyclonedds is not installed: pip install ".[dds]"',
@@ -93,9 +96,9 @@ def master(start_master):
     return start_master()
 
 
-def outcome_of(process, seconds=150):
+def outcome_of(process):
     """What a simulated robot prints in the end."""
-    said, _ = process.communicate(timeout=seconds)
+    said, _ = process.communicate(timeout=PATIENCE)
     lines = said.splitlines()
     assert lines[-1].startswith("{"), said
     return json.loads(lines[-1])
@@ -104,7 +107,7 @@ def outcome_of(process, seconds=150):
 def lines_of(process):
     """What a node printed until it was ended."""
     process.terminate()
-    said, _ = process.communicate(timeout=30)
+    said, _ = process.communicate(timeout=PATIENCE)
     return [json.loads(line) for line in said.splitlines() if line.startswith("{")]
 
 
@@ -148,7 +151,7 @@ def test_a_navigator_carries_a_command_out_by_the_goals_on_the_wire(start, reque
 def test_a_node_without_its_navigator_says_so(start):
     node = start("node", "--over", "dds", "--json", "--navigator", "action")
     robot = start("simulate", TEXT, "--over", "dds", *PLACE[:1], "--seconds", "30")
-    robot.communicate(timeout=150)
+    robot.communicate(timeout=PATIENCE)
     assert robot.returncode == 1  # it stood still: stopped short, or no verdict in that time
     assert "no navigator has answered" in [state["problem"] for state in lines_of(node)]
 
@@ -180,7 +183,7 @@ def test_a_master_that_comes_back_is_told_of_the_node_again(start, start_master)
 @needs_ros1
 def test_without_a_master_the_node_says_so(start):
     node = start("node", "--over", "ros1")
-    said, _ = node.communicate(timeout=120)
+    said, _ = node.communicate(timeout=PATIENCE)
     assert node.returncode == 2
     assert "no ROS master at http://127.0.0.1" in said
 
