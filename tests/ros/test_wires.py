@@ -17,7 +17,7 @@ from semnav_ros.opening import MISSING
 from tests.support.paths import ROOT, ROOTS
 
 TEXT = "go through the second door on the right"
-PLACE = ("--pose=1.0,0.3,0.24", "--seconds", "140")
+PLACE = ("--pose=1.0,0.3,0.24", "--seconds", "840")
 LOOPBACK = (
     "<CycloneDDS><Domain><General><AllowMulticast>false</AllowMulticast><Interfaces>"
     '<NetworkInterface name="lo" multicast="false"/></Interfaces></General><Discovery>'
