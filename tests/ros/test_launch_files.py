@@ -128,7 +128,7 @@ def environment(**more):
 
 def test_remappings_are_left_to_rospy():
     """The file that roslaunch runs must be executable, in a wheel, too."""
-    words = [LAUNCH_FILES / "run.py", "node", "--launch-files", "scan:=/front/scan", "__name:=nav"]
+    words = [LAUNCH_FILES / "run", "node", "--launch-files", "scan:=/front/scan", "__name:=nav"]
     done = subprocess.run(words, env=environment(), capture_output=True, text=True, check=True)
     assert done.stdout.strip() == str(LAUNCH_FILES)
 
@@ -138,5 +138,5 @@ def test_roslaunch_starts_what_the_file_says():
     words = [ROSLAUNCH, "--args", "semnav", "semnav", "node.launch", "robot:=spot", "scan:=/front"]
     done = subprocess.run(words, env=environment(), capture_output=True, text=True, check=True)
     started = shlex.split(done.stdout)
-    assert str(LAUNCH_FILES / "run.py") in started
+    assert str(LAUNCH_FILES / "run") in started
     assert {"node", "--robot=spot", "scan:=/front", "__name:=semnav"} <= set(started)
