@@ -64,13 +64,16 @@ slow: $(VENV)/.test
 
 nightly: slow soak versions coverage
 
-# The node of a robot and a simulated robot in two processes, with a ROS master of Debian's packages and
-# by DDS. Where the packages cannot be installed, the tests that need them skip, and say why.
+# The node of a robot and a simulated robot in two processes: with a ROS master of Debian's packages, by
+# DDS, and by rclpy of ROS 2 Jazzy, which has an environment of its own, as its messages have the names
+# of ROS 1's. Where the packages cannot be installed, the tests that need them skip, and say why.
+RCLPY := $(foreach part,rclpy rmw-fastrtps-cpp sensor-msgs nav-msgs visualization-msgs,ros-jazzy-$(part))
 WIRES ?=
 ros: $(VENV)/.test
 	.ci/debian python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs \
-	  python3-visualization-msgs python3-tf2-msgs python3-move-base-msgs
-	$(BIN)/python -m pytest tests/ros/test_wires.py -k "$(WIRES)"
+	  python3-visualization-msgs python3-tf2-msgs python3-move-base-msgs python3-roslaunch python3-rosbag
+	-$(PYTHON) -m venv build/ros2 && build/ros2/bin/pip install -q -c constraints.txt $(RCLPY)
+	$(BIN)/python -m pytest tests/ros/test_wires.py tests/ros/test_launch_files.py -k "$(WIRES)"
 
 lint: $(VENV)/.test
 	$(BIN)/ruff check .

@@ -55,7 +55,8 @@ class NodeShell:
             wire.announce(topic)
         wire.hear(topics.stop, lambda v: self._say(node.stop(v["value"], _now())))
         wire.hear(topics.command, lambda v: self._say(node.command(v["text"], _now())))
-        wire.hear(topics.tf_static, self._take_transforms)
+        if node.needs_transforms:
+            wire.hear(topics.tf_static, self._take_transforms)
         wire.hear(topics.odom, self._take_odometry)
         wire.hear(topics.bumps, lambda v: node.bumps(conversions.bumps_of(v)))
         wire.hear(topics.scan, self._take_scan)

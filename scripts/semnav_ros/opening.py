@@ -15,7 +15,7 @@ NavigatorKind: TypeAlias = Literal["action", "topic"]
 MISSING: dict[WireName, str] = {
     "ros1": "rospy is missing: apt-get install python3-rospy python3-rosmaster python3-sensor-msgs "
     "python3-nav-msgs python3-visualization-msgs python3-tf2-msgs python3-move-base-msgs (Debian)",
-    "ros2": "rclpy is missing, which comes with ROS 2 and not from pip: install ROS 2, source its "
+    "ros2": "rclpy is missing, which comes with ROS 2: install ROS 2, source its "
     "setup.bash in this shell and use its Python; or do without ROS by --over dds "
     '(pip install "semnav-env[dds]"), or take --over ros1',
     "dds": 'Cyclone DDS is missing: pip install "semnav-env[dds]"',

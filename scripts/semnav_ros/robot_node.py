@@ -108,6 +108,11 @@ class RobotNode:
         self._start = ORIGIN
         self._seen: tuple[Belief, Pose] | None = None
 
+    @property
+    def needs_transforms(self) -> bool:
+        """Whether the pose of the lidar must come from the transforms."""
+        return self._mount is None
+
     def transform(self, transform: TransformMessage) -> None:
         """Take a fixed transform, such as from the base frame to the lidar."""
         self._frames.take(transform)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass, field
+from pathlib import Path
 
 from semnav_ros.messages import NodeReply, Phase
 from semnav_ros.node_shell import NodeShell
@@ -11,6 +12,9 @@ from semnav_ros.opening import NavigatorKind, WireName, open_navigator, open_wir
 from semnav_ros.robot_node import RobotNode
 from semnav_ros.topics import NodeTopics
 from semnav_scripts.arguments import OptionalText, parse_pose
+
+LAUNCH_FILES = Path(__file__).parent / "launch"
+"""A package of ROS 1, and what `ros2 launch` takes."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +43,8 @@ class Arguments:
         action: name of the action; navigate_to_pose, or move_base in ROS 1, if not given.
         topics: other names of topics, such as scan=/front/scan cmd_vel=/nav_vel.
         json: print each change of the status as JSON.
+        launch_files: print the folder of the launch files of ROS 1 and ROS 2, and end; in ROS 1 add
+            it to ROS_PACKAGE_PATH.
     """
 
     over: WireName = "ros2"
@@ -52,9 +58,13 @@ class Arguments:
     action: OptionalText = None
     topics: tuple[str, ...] = field(default=())
     json: bool = False
+    launch_files: bool = False
 
     def run(self) -> int:
         """Run until interrupted."""
+        if self.launch_files:
+            print(LAUNCH_FILES)
+            return 0
         topics = NodeTopics().renamed(renamings(self.topics))
         mount = None if self.mount is None else parse_pose(self.mount)
         wire = open_wire(self.over, "semnav")  # first, for what is missing is then said at once

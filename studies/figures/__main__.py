@@ -15,6 +15,7 @@ FIGURES = [
     "drift",
     "drift_success",
     "features_tables",
+    "gallery",
     "headroom",
     "landmarks",
     "language",
@@ -39,6 +40,7 @@ FIGURES = [
     "speed",
     "tasks",
     "tour",
+    "tutorials",
     "your_floor",
 ]
 

@@ -70,6 +70,7 @@ ABOUT = {
     "semnav_env/language/translating": "the learned reader: values out, translated",
     "semnav_ros": "a robot's own node: its core without ROS, and what carries its messages",
     "semnav_scripts": "the `semnav` command",
+    "semnav_scripts/launch": "launch files of ROS 1 and ROS 2",
     "semnav_scripts/page": "the page of `semnav serve`: requests, sessions, server, web files",
     "semnav_scripts/playing": "driving by hand: `semnav play`",
     "semnav_scripts/report": "the report of an evaluation: one HTML file, with its failures",

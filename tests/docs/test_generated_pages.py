@@ -8,7 +8,14 @@ import pytest
 
 from semnav_env.env import SemNavEnv
 from semnav_env.mind.observations import MODES
-from studies.figures import approach, architecture, leaderboard, licences, observation_table
+from studies.figures import (
+    approach,
+    architecture,
+    gallery,
+    leaderboard,
+    licences,
+    observation_table,
+)
 from tests.support.paths import source
 
 
@@ -46,6 +53,13 @@ def test_the_licences_are_those_of_the_packages_that_are_asked_for() -> None:
     shown = licences.PAGE.read_text(encoding="utf-8").split("\n## ")[1]
     found = [row for row in shown.splitlines() if row.startswith("| ")][1:]
     assert _without_versions(found) == _without_versions(rows)
+
+
+def test_the_gallery_shows_every_picture_of_the_pages() -> None:
+    """If this fails: `python -m studies.figures gallery`."""
+    shown = gallery.PAGE.read_text(encoding="utf-8")
+    assert shown == gallery.page()
+    assert all(f"images/{each.name})" in shown for each in gallery.IMAGES.iterdir())
 
 
 def test_the_licence_of_what_is_not_installed_is_not_made_up() -> None:

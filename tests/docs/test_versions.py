@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 import yaml
 
+from semnav_scripts.node import LAUNCH_FILES
 from tests.support.paths import ROOT
 
 PROJECT: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
@@ -20,6 +21,7 @@ def test_the_version_is_everywhere_the_same() -> None:
     """The date of a release stands in CHANGELOG.md, and nowhere else."""
     assert HEADING is not None
     assert HEADING[1] == PROJECT["version"] == CITATION["version"]
+    assert f"<version>{HEADING[1]}</version>" in (LAUNCH_FILES / "package.xml").read_text("utf-8")
     assert HEADING[2] == "unreleased" or re.fullmatch(r"20\d\d-[01]\d-[0-3]\d", HEADING[2])
     assert "date-released" not in CITATION
 

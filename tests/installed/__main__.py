@@ -68,6 +68,8 @@ def try_package(package: Path, folder: Path) -> None:
     (installed,) = folder.glob("lib/python*/site-packages")
     missing = sorted(str(file) for file in package_files() if not (installed / file).exists())
     assert not missing, f"{package.name} lacks {', '.join(missing)}"
+    for file in package_files():
+        assert os.access(installed / file, os.X_OK) or file.name != "run", f"roslaunch: {file}"
     semnav = folder / "bin/semnav"
     run(semnav, "demo", *DEMO, cwd=folder)
     run(semnav, *REPORT, "--html", "report.html", cwd=folder)

@@ -10,10 +10,15 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from semnav_env import load_floor_plan
+from semnav_features.frames import points_to_parent
 from semnav_ros.fields import read, written
 from semnav_ros.opening import MISSING
+from semnav_ros.simulated_robot import SimulatedRobot
+from semnav_scripts.node import LAUNCH_FILES
 from tests.support.paths import ROOT, ROOTS
 
 TEXT = "go through the second door on the right"
@@ -41,7 +46,20 @@ needs_ros1 = pytest.mark.skipif(
     not (MASTER.exists() and all((DEBIAN / name).exists() for name in ("rospy", "move_base_msgs"))),
     reason=MISSING["ros1"],
 )
+ROSLAUNCH, ROSBAG = Path("/usr/bin/roslaunch"), Path("/usr/bin/rosbag")
+needs_roslaunch = pytest.mark.skipif(
+    not ROSLAUNCH.exists(), reason="roslaunch is missing: apt-get install python3-roslaunch"
+)
+needs_rosbag = pytest.mark.skipif(
+    not ROSBAG.exists() or importlib.util.find_spec("rosbags") is None,
+    reason='rosbag is missing: apt-get install python3-rosbag, and pip install ".[ros]"',
+)
+RCLPY = ROOT / "build" / "ros2" / "bin" / "python"
+needs_rclpy = pytest.mark.skipif(
+    not RCLPY.exists(), reason="rclpy is not in build/ros2, where `make ros` puts it"
+)
 pytestmark = pytest.mark.slow
+SEMNAV = (sys.executable, "-m", "semnav_scripts.main")
 
 
 def environment(tmp_path, **more):
@@ -49,7 +67,10 @@ def environment(tmp_path, **more):
     path = os.pathsep.join([*roots, os.environ.get("PYTHONPATH", "")])
     ros1 = {"ROS_MASTER_URI": f"http://127.0.0.1:{PORT}", "ROS_IP": "127.0.0.1"}
     dds = {"ROS_DOMAIN_ID": str(DOMAIN), "CYCLONEDDS_URI": LOOPBACK}
-    return {**os.environ, **ros1, **dds, "ROS_LOG_DIR": str(tmp_path), "PYTHONPATH": path, **more}
+    dds |= {"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}  # of rclpy
+    paths = {"ROS_LOG_DIR": str(tmp_path), "ROS_PACKAGE_PATH": str(LAUNCH_FILES)}
+    python = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+    return {**os.environ, **ros1, **dds, **paths, "PYTHONPATH": path, "PATH": python, **more}
 
 
 @pytest.fixture
@@ -57,10 +78,10 @@ def start(tmp_path):
     """Starts a sub-command of `semnav` or another program; ends it after the test."""
     running = []
 
-    def begin(*words, program=(sys.executable, "-m", "semnav_scripts.main")):
+    def begin(*words, program=SEMNAV, **more):
         process = subprocess.Popen(
             [*program, *words],
-            env=environment(tmp_path),
+            env=environment(tmp_path, **more),
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -127,6 +148,19 @@ def test_a_command_by_dds_is_carried_out_as_the_judge_sees_it(start):
     assert "done" in [state["phase"] for state in states]
 
 
+@needs_dds
+@needs_rclpy
+def test_a_node_of_rclpy_drives_a_robot_that_speaks_dds(start):
+    """By Fast DDS on one side and Cyclone DDS on the other, as ROS 2 has them."""
+    here = [path for path in sys.path if path.endswith("site-packages")]
+    path = os.pathsep.join([*map(str, dict.fromkeys((ROOT, *ROOTS.values()))), *here])
+    words = ("node", "--over", "ros2", "--json", "--mount=0.45,0,0")
+    node = start(*words, program=(str(RCLPY), *SEMNAV[1:]), PYTHONPATH=path)
+    robot = start("simulate", TEXT, "--over", "dds", *PLACE, "--speed", "2")
+    assert outcome_of(robot)["verdicts"] == ["done"]
+    assert "done" in [state["phase"] for state in lines_of(node)]
+
+
 @needs_ros1
 def test_a_command_by_ros_1_is_carried_out_as_the_judge_sees_it(start, master):
     outcome, states = drive(start, "ros1")
@@ -186,6 +220,69 @@ def test_without_a_master_the_node_says_so(start):
     said, _ = node.communicate(timeout=PATIENCE)
     assert node.returncode == 2
     assert "no ROS master at http://127.0.0.1" in said
+
+
+@needs_ros1
+@needs_roslaunch
+def test_roslaunch_brings_the_node_and_a_simulated_robot_to_a_verdict(start):
+    words = ("-p", str(PORT), "semnav", "simulated.launch", "speed:=2")
+    launch = start(*words, program=(str(ROSLAUNCH),))
+    try:
+        said, _ = launch.communicate(timeout=150)
+    finally:
+        launch.terminate()  # and what it has started, if it still runs
+    assert '"verdicts": ["done"]' in said
+
+
+LISTENER = """
+import json
+from semnav_ros.opening import open_wire
+from semnav_ros.topics import NodeTopics
+
+wire, heard = open_wire("ros1", "listener"), []
+wire.hear(NodeTopics().belief, lambda values: heard.append(json.loads(values["text"])))
+print("listening", flush=True)
+while not (heard and heard[-1]["doors"]):
+    wire.wait(0.1)
+wire.close()
+print(json.dumps(heard[-1]))
+"""
+"""Prints that it listens, and then the first belief with doors."""
+
+START = (1.0, 0.3, 0.24)
+
+
+def recorded_drive(folder):
+    """A bag of eight seconds down the hallway, which begins with a command; and the mount."""
+    from tests.support.bags import BagFile, Moved, Said, Sweep
+
+    robot = SimulatedRobot("heidelberg_hallway", pose=START)
+    scan, odometry, _ = robot.sensed()
+    messages = [Said(TEXT, scan.stamp - 0.5, "/semnav/command")]
+    while scan.stamp < 108.0:
+        fan = scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max
+        messages.append(Moved(odometry.pose, scan.stamp))
+        messages.append(Sweep(scan.ranges, scan.stamp, "/scan", *fan))
+        robot.drive((0.4, 0.0, 0.0))
+        scan, odometry, _ = robot.sensed()
+    return BagFile("ros1", messages).write(folder), robot.mount
+
+
+@needs_ros1
+@needs_rosbag
+def test_the_doors_of_a_played_bag_are_believed_where_they_are(start, master, tmp_path):
+    bag, mount = recorded_drive(tmp_path)
+    node = start("node", "--over", "ros1", "--json", f"--mount={','.join(map(str, mount))}")
+    assert any(line.startswith("{") for line in node.stdout)  # it runs
+    listener = start("-c", LISTENER, program=(sys.executable,))
+    assert listener.stdout.readline() == "listening\n"
+    start("play", "--wait-for-subscribers", "--quiet", str(bag), program=(str(ROSBAG),))
+    said, _ = listener.communicate(timeout=100)
+    doors = np.array(json.loads(said.splitlines()[-1])["doors"])
+    believed = points_to_parent(START, doors.reshape(-1, 2, 2).mean(axis=1))
+    true = np.array([door.midpoint for door in load_floor_plan("heidelberg_hallway").doors])
+    apart = np.linalg.norm(believed[:, None] - true, axis=2).min(axis=1)
+    assert (apart < 0.3).all()
 
 
 @needs_dds

@@ -101,6 +101,7 @@ class MissionMaker:
         name = self.floor_plan.name
         raise ValueError(
             f'no start found in {name} from which "{command}" can be carried out: {why}; '
+            "random starts lie in corridors, so give a pose of your own, such as one in a room; or "
             "another floor plan may have one"
         )
 
