@@ -40,6 +40,7 @@ STUDIES = CommandTable(
         "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
         "limits": ("studies.translating.limits", "show when it is best to act, to ask, to refuse"),
         "refine": ("studies.translating.refining", "let the translator learn from new authors"),
+        "said": ("studies.said.command", "commands to find people in people's words"),
         "search": ("studies.search.command", "houses searched with their plan and without"),
         "segmentation": ("studies.segmentation.command", "how walls are cut into pieces"),
         "speech": ("studies.speech.command", "the speech parser, with fillers and without commas"),

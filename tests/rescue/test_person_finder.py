@@ -11,6 +11,7 @@ import pytest
 from shapely import box
 
 from semnav_agents.base import steps
+from semnav_agents.scripted import ScriptedAgent
 from semnav_agents.searching.finder import Finder
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.goals import plan_goals
@@ -194,3 +195,70 @@ def test_the_agent_finds_a_person_and_learns_the_name(robot: str) -> None:
     [person] = [each for each in info["found"]["people"] if each["reported"]]
     assert math.dist(person["place"], (-0.6, -2.8)) <= 1.0
     assert person["name"] is not None
+
+
+def test_the_driver_remembers_what_it_passed_during_a_search() -> None:
+    """A wheelchair that then backs out of a room does not see the wall behind itself."""
+    agent, alone = Finder(), ScriptedAgent()
+    env = SemNavEnv("wheelchair", VILLA, payload=PersonFinder(), observation=agent.observation)
+    agent.read_plan(VILLA)
+    told = {"command": "search this room", "pose": (1.5, -2.0, math.pi / 2)}
+    observation, info = env.reset(seed=0, options=told)
+    agent.reset(info)
+    alone.reset(info)
+    for _ in range(40):
+        alone.see(observation)
+        observation, *_ = env.step(agent.act(observation))
+    np.testing.assert_array_equal(agent.driver.obstacles, alone.obstacles)
+    assert len(alone.obstacles) > 100
+
+
+def test_a_robot_that_looks_around_does_not_turn_into_what_stands_beside_it() -> None:
+    """Its rear would sweep through a person behind it."""
+    agent = Finder()
+    x, y, _ = pose = (4.8, 2.4, 0.0)
+    plan = with_person(x - 0.9, y + 0.62)
+    env = SemNavEnv("wheelchair", plan, payload=PersonFinder(), observation=agent.observation)
+    agent.read_plan(VILLA)
+    observation, info = env.reset(seed=0, options={"command": "look around", "pose": pose})
+    for step in steps(env, agent, observation, info):
+        info = step.info
+    assert info["collisions"] == 0
+
+
+def test_a_person_who_is_heard_alone_is_gone_to_and_seen() -> None:
+    """From the hall nobody in the living room is in view."""
+    agent = Finder()
+    payload = PersonFinder(microphones=MicrophoneSettings(answers=1.0))
+    plan = with_person(5.8, 1.2)
+    env = SemNavEnv("spot", plan, payload=payload, observation=agent.observation)
+    agent.read_plan(VILLA)
+    told = {"command": "call and listen and go to the person you found", "pose": HALL}
+    observation, info = env.reset(seed=1, options=told)
+    for step in steps(env, agent, observation, info):
+        info = step.info
+    assert info["verdicts"] == ("done", "done")
+    assert info["found"]["calls"] >= 2
+    [person] = [each for each in info["found"]["people"] if each["reported"]]
+    assert math.dist(person["place"], (5.8, 1.2)) < 0.5
+
+
+def test_who_is_behind_a_closed_door_is_placed_by_voice_alone() -> None:
+    """Where the directions cross, with a standard deviation that agrees with the error."""
+    agent = Finder()
+    payload = PersonFinder(microphones=MicrophoneSettings(answers=1.0))
+    door = VILLA.door("living")
+    closed = Surface((door.start, door.end), Material.LEAF)
+    plan = with_person(4.0, 1.2)
+    doors = tuple(replace(each, open=each is not door) for each in plan.doors)
+    plan = replace(plan, surfaces=(*plan.surfaces, closed), doors=doors)
+    env = SemNavEnv("spot", plan, payload=payload, observation=agent.observation)
+    agent.read_plan(VILLA)
+    told = {"command": "call and listen and go to the person you found", "pose": HALL}
+    observation, info = env.reset(seed=2, options=told)
+    for step in steps(env, agent, observation, info):
+        info = step.info
+    assert info["verdicts"] == ("done", "incomplete")
+    assert not any(each["reported"] for each in info["found"]["people"])
+    [heard] = info["found"]["voices"].values()
+    assert math.dist(heard["place"], (4.0, 1.2)) < 3.0 * heard["std"]

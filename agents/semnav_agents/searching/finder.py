@@ -8,9 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
+from semnav_agents.planning.free import points_around
+from semnav_agents.planning.guard import safe_share
 from semnav_agents.scripted import ScriptedAgent
 from semnav_agents.searching.agent import PlanSearcher, people_of
-from semnav_agents.searching.finding_tasks import FindingTask, LookTask, PersonTask, SearchTask
+from semnav_agents.searching.finding_tasks import (
+    FindingTask,
+    LookTask,
+    Percepts,
+    PersonTask,
+    SearchTask,
+)
 from semnav_agents.searching.house_plan import numbers_of, room_entered
 from semnav_env.language import (
     CLAUSE_FEATURES,
@@ -32,7 +40,9 @@ from semnav_env.mind.observations import (
     SeenGoal,
     read_odometry,
 )
+from semnav_env.rescue.microphones import USUAL_MICROPHONES, MicrophoneSettings
 from semnav_env.rescue.people_entry import PeopleEntry
+from semnav_env.rescue.voices_entry import VoicesEntry, read_voices
 from semnav_env.robots.actions import shares_of
 from semnav_features.frames import Point, Pose, Twist
 
@@ -42,18 +52,25 @@ class Finder(PlanSearcher):
 
     It hears the command by its tokens. It knows walls, doors and rooms of the plan, but neither
     furniture nor people.
+
+    Attributes:
+        driver: drives where nobody is looked for; it sees all scans.
     """
+
+    driver: ScriptedAgent
 
     @property
     def observation(self) -> str | ObservationType:
-        """All entries, the pace, and the people."""
-        return EntryObservation("all", (PaceEntry(), PeopleEntry()))
+        """All entries, the pace, the people and the voices."""
+        return EntryObservation("all", (PaceEntry(), PeopleEntry(), VoicesEntry()))
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode with the body, the lidar and the detector of `info`."""
         super().reset(info)
-        self._driver = ScriptedAgent()
-        self._driver.reset(info)
+        self.driver = ScriptedAgent()
+        self.driver.reset(info)
+        told = info.get("microphones")
+        self._microphones = MicrophoneSettings(**told) if told else USUAL_MICROPHONES
         self._command: Command | None = None
         self._under_way = -1
         self._task: FindingTask | None = None
@@ -65,11 +82,20 @@ class Finder(PlanSearcher):
         self._see(pose, observation["scan"])
         task = self._current_task(observation)
         if task is None:
-            return self._driver.act(observation)
-        step = task.next_step(pose, people_of(observation, pose))
+            return self.driver.act(observation)
+        self.driver.see(observation)
+        seen = Percepts(people_of(observation, pose), read_voices(observation, pose))
+        step = task.next_step(pose, seen)
         if step.yaw_rate:
-            return shares_of((0.0, 0.0, step.yaw_rate), self._pilot.robot)
+            return self._turn(observation, step.yaw_rate)
         return self._drive(observation, step.target, careful=step.careful)
+
+    def _turn(self, observation: Observation, yaw_rate: float) -> NDArray[np.float32]:
+        """The action that turns on the spot, slower or not at all where the body would touch."""
+        (pose, velocity), robot = read_odometry(observation), self._pilot.robot
+        near = points_around(pose, self._points(observation, pose), 1.5 * robot.length)
+        share = safe_share(near, (0.0, 0.0, yaw_rate), velocity, robot)
+        return shares_of((0.0, 0.0, share * yaw_rate), robot)
 
     def _current_task(self, observation: Observation) -> FindingTask | None:
         """The task of the clause that the robot believes to be active; None if it only drives."""
@@ -97,8 +123,8 @@ class Finder(PlanSearcher):
             case LookAround():
                 return LookTask(self._chart, self._looker, pose)
             case GoToPerson() | AskName():
-                again = isinstance(clause, AskName)
-                return PersonTask(self._chart, self._looker, self._visited, again=again)
+                own = self._chart, self._looker, self._microphones, self._visited
+                return PersonTask(*own, again=isinstance(clause, AskName))
         return None
 
     def _room_of(self, clause: SearchRoom, pose: Pose, velocity: Twist) -> int:
