@@ -25,7 +25,7 @@ from semnav_env.mind.observations import (
 )
 from semnav_env.robots import RobotSpec
 from semnav_env.world.maps import FloorPlan
-from semnav_features.frames import FloatArray, Pose, points_to_parent
+from semnav_features.frames import Pose, points_to_parent
 from semnav_features.lidar_spec import LidarSpec
 
 ENTRIES = (
@@ -76,18 +76,9 @@ class ScriptedTeam:
         if not {"scan", "goal"} <= observations.keys():
             raise ValueError('the scripted agent needs scan and goal: give observation="all"')
         numbers = np.array(range(len(self._pilots)) if driven is None else list(driven), np.int64)
-        self._perception.update(observations["odometry"], observations["scan"], numbers)
         seen = {name: observations[name] for name in ENTRIES if name in observations}
+        self._perception.update(seen["odometry"], seen["scan"], numbers)
         return self._decide(seen, numbers)
-
-    def see(self, observations: Observation) -> None:
-        """Take in the scans of one step in which others decide for the robots."""
-        everyone = np.arange(len(self._pilots))
-        self._perception.update(observations["odometry"], observations["scan"], everyone)
-
-    def obstacles(self, index: int) -> FloatArray:
-        """Points on what a robot knows to stand around, odometry frame, metres, shape (n, 2)."""
-        return self._perception.obstacles[index].points()
 
     def own_goal(self, index: int) -> Pose | None:
         """None: robots drive to the goals of their beliefs."""
@@ -178,19 +169,6 @@ class ScriptedAgent:
         Raises:
             ValueError: the observation lacks the scan or the goal.
         """
-        action: NDArray[np.float32] = self._team.act(_of_one(observation))[0]
+        seen = {name: observation[name][None] for name in ENTRIES if name in observation}
+        action: NDArray[np.float32] = self._team.act(seen)[0]
         return action
-
-    @property
-    def obstacles(self) -> FloatArray:
-        """Points on what it knows to stand around, odometry frame, metres, shape (n, 2)."""
-        return self._team.obstacles(0)
-
-    def see(self, observation: Observation) -> None:
-        """Take in the scan of a step in which another agent drives, to know what stands around."""
-        self._team.see(_of_one(observation))
-
-
-def _of_one(observation: Observation) -> Observation:
-    """The entries that a team of one robot reads."""
-    return {name: observation[name][None] for name in ENTRIES if name in observation}

@@ -107,9 +107,7 @@ def counts(
     """
     rows: list[tuple[Cell, ...]] = []
     for language, name in (("en", "English"), ("de", "German")):
-        own = [
-            (s, v.outcome) for s, v in zip(said, judged, strict=True) if s.language == language
-        ]
+        own = [(s, v.outcome) for s, v in zip(said, judged, strict=True) if s.language == language]
         numbers = [sum(outcome is each for _, outcome in own) for each in ParseOutcome]
         right = [s.command for s, outcome in own if outcome is ParseOutcome.UNDERSTOOD]
         done = sum(driven[c] for c in right) / len(own) if driven else float("nan")

@@ -11,7 +11,6 @@ import pytest
 from shapely import box
 
 from semnav_agents.base import steps
-from semnav_agents.scripted import ScriptedAgent
 from semnav_agents.searching.finder import Finder
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.goals import plan_goals
@@ -32,6 +31,7 @@ from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import PassGoal, StopGoal
 from semnav_env.rescue import MicrophoneSettings, PersonFinder
 from semnav_env.rescue.microphones import MicrophoneArray
+from semnav_env.robots import WHEELCHAIR
 from semnav_env.world.maps import FloorPlan, Material, Surface, load_floor_plan
 from semnav_features.frames import Pose
 
@@ -197,20 +197,41 @@ def test_the_agent_finds_a_person_and_learns_the_name(robot: str) -> None:
     assert person["name"] is not None
 
 
-def test_the_driver_remembers_what_it_passed_during_a_search() -> None:
-    """A wheelchair that then backs out of a room does not see the wall behind itself."""
-    agent, alone = Finder(), ScriptedAgent()
-    env = SemNavEnv("wheelchair", VILLA, payload=PersonFinder(), observation=agent.observation)
+def finder_in(pose: Pose, command: str) -> tuple[Finder, SemNavEnv, dict[str, Any]]:
+    """A wheelchair at the beginning of an episode in the villa, and what it sees."""
+    agent = Finder()
+    env = SemNavEnv(
+        "wheelchair", VILLA, payload=PersonFinder(), observation=agent.observation, odometry="exact"
+    )
     agent.read_plan(VILLA)
-    told = {"command": "search this room", "pose": (1.5, -2.0, math.pi / 2)}
-    observation, info = env.reset(seed=0, options=told)
+    observation, info = env.reset(seed=0, options={"command": command, "pose": pose})
     agent.reset(info)
-    alone.reset(info)
+    agent.act(observation)
+    return agent, env, observation
+
+
+def clearance_to(points: np.ndarray, place: tuple[float, float]) -> float:
+    """Distance of the nearest of some points from a place, metres."""
+    return float(np.hypot(*(points - place).T).min())
+
+
+def test_a_wall_behind_that_was_never_seen_is_an_obstacle() -> None:
+    """The lidar sees 270 degrees: the wall is 2 cm behind, to the right."""
+    pose: Pose = (-1.46, 4.5, -3.0)
+    agent, _, observation = finder_in(pose, "go down the hallway")
+    corner = (-WHEELCHAIR.length / 2, -WHEELCHAIR.width / 2)
+    near = agent.obstacles(observation).near((0.0, 0.0, 0.0), 2.0)
+    assert clearance_to(near, corner) < 0.08
+
+
+def test_a_wall_that_was_passed_in_a_search_is_an_obstacle_of_the_way_back() -> None:
+    """Among the obstacles of recent scans, which are updated in a search, too."""
+    agent, env, observation = finder_in((1.5, -1.2, -math.pi / 2), "search this room")
     for _ in range(40):
-        alone.see(observation)
         observation, *_ = env.step(agent.act(observation))
-    np.testing.assert_array_equal(agent.driver.obstacles, alone.obstacles)
-    assert len(alone.obstacles) > 100
+    seen = agent.recent.points()
+    assert len(seen) > 100
+    assert clearance_to(agent.obstacles(observation).points(), seen[0]) < 0.01
 
 
 def test_a_robot_that_looks_around_does_not_turn_into_what_stands_beside_it() -> None:

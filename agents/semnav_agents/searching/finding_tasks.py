@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
@@ -54,7 +55,7 @@ class Percepts(NamedTuple):
     """What is known of people: the possible ones, and the voices, odometry frame."""
 
     people: People
-    voices: list[PersonVoice] = []
+    voices: Sequence[PersonVoice] = ()
 
 
 class FindingStep(NamedTuple):
@@ -238,7 +239,7 @@ class PersonTask:
         return self._waited > self._chart.settings.patience
 
 
-def _clearest(voices: list[PersonVoice]) -> list[HeardVoice]:
+def _clearest(voices: Sequence[PersonVoice]) -> list[HeardVoice]:
     """The directions of the speaker who was heard most clearly."""
     if not voices:
         return []
