@@ -49,6 +49,7 @@ STUDIES = CommandTable(
         "train_doors": ("studies.door_scorer.train_doors", "train the scorer of doors"),
         "translator": ("studies.translating.command", "train the translator"),
         "unsaid": ("studies.unsaid.command", "what implicit steps are good for"),
+        "voices": ("studies.voices.command", "somebody in another room found by voice"),
         "wordless": ("studies.wordless.command", "the listener without its words: a learned floor"),
     },
 )

@@ -215,11 +215,18 @@ def clearance_to(points: np.ndarray, place: tuple[float, float]) -> float:
     return float(np.hypot(*(points - place).T).min())
 
 
-def test_a_wall_behind_that_was_never_seen_is_an_obstacle() -> None:
-    """The lidar sees 270 degrees: the wall is 2 cm behind, to the right."""
-    pose: Pose = (-1.46, 4.5, -3.0)
+@pytest.mark.parametrize(
+    ("pose", "corner"),
+    [
+        ((-1.46, 4.5, -3.0), (-WHEELCHAIR.length / 2, -WHEELCHAIR.width / 2)),
+        ((-4.83, 4.63, -1.99), (-0.44, WHEELCHAIR.width / 2)),
+    ],
+)
+def test_a_wall_behind_that_was_never_hit_is_an_obstacle(
+    pose: Pose, corner: tuple[float, float]
+) -> None:
+    """The lidar sees 270 degrees; the wall almost touches the body, behind it."""
     agent, _, observation = finder_in(pose, "go down the hallway")
-    corner = (-WHEELCHAIR.length / 2, -WHEELCHAIR.width / 2)
     near = agent.obstacles(observation).near((0.0, 0.0, 0.0), 2.0)
     assert clearance_to(near, corner) < 0.08
 

@@ -27,8 +27,8 @@ GATE = 0.15
 furniture before the wall."""
 
 HIT_STD, MOST_HITS = 0.03, 40
-"""Standard deviation of a hit from its wall, metres, and how many hits count as independent at most,
-since neighbours on one wall share its error in the plan."""
+"""Standard deviation of a hit from its wall, metres, and how many hits count as independent:
+neighbours on one wall share its error in the plan."""
 
 STEP_STD = (0.02, 0.02, math.radians(0.5))
 """Standard deviation of the drift between two corrections, metres and radians."""
