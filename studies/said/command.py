@@ -110,7 +110,7 @@ def counts(
         own = [(s, v.outcome) for s, v in zip(said, judged, strict=True) if s.language == language]
         numbers = [sum(outcome is each for _, outcome in own) for each in ParseOutcome]
         right = [s.command for s, outcome in own if outcome is ParseOutcome.UNDERSTOOD]
-        done = sum(driven[c] for c in right) / len(own) if driven else float("nan")
+        done = sum(driven[c] for c in right) / len(own) if driven and own else float("nan")
         rows.append((name, len(own), *numbers, done))
     columns = ("language", "n", *(each.value for each in ParseOutcome), "done, share")
     return ResultSheet("Commands to find people in people's words", columns, rows)
