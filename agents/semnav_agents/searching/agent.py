@@ -19,7 +19,7 @@ from semnav_agents.planning.obstacles import (
 from semnav_agents.planning.planner import PlannerSettings
 from semnav_agents.searching.house_plan import KNOWN_MARGIN, HousePlan
 from semnav_agents.searching.plan_pose import PlanPose
-from semnav_agents.searching.search_map import SearchMap, without_lost
+from semnav_agents.searching.search_map import FREE, SearchMap, without_lost
 from semnav_agents.searching.searcher import Searcher
 from semnav_agents.searching.settings import SearchSettings
 from semnav_agents.searching.views import Looker
@@ -139,7 +139,8 @@ class Explorer:
             ranges = without_lost(scan.astype(np.float64), self._lidar.range_max)
             self._chart.update(eye, self._beams, ranges, detector.field_of_view, detector.range_max)
             if self._house is not None and self._steps % (10 * UPDATE_EVERY) == 0:
-                known = binary_dilation(self._chart.hits > 0, iterations=KNOWN_MARGIN)
+                seen = self._chart.has(FREE) | (self._chart.hits > 0)
+                known = binary_dilation(seen, iterations=KNOWN_MARGIN)
                 self._unseen = self._house.unseen_walls(self._chart, known)
         self._steps += 1
 

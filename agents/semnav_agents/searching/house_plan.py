@@ -19,9 +19,9 @@ from semnav_features.frames import FloatArray, Pose, Twist, points_to_local, poi
 MARGIN = 1.0
 """Distance that the map reaches beyond the house, metres: the believed pose drifts."""
 
-KNOWN_MARGIN = 2
-"""Cells around hits within which the plan's walls no longer count for driving: there the lidar
-knows better."""
+KNOWN_MARGIN = 6
+"""Cells around what was seen within which the plan's walls no longer count for driving: there the
+lidar knows better."""
 
 MOVING = 0.05
 """Speed from which on a robot counts as driving in some direction, m/s."""

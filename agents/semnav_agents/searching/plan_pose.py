@@ -22,7 +22,7 @@ EVERY = 5
 FARTHEST = 6.0
 """Largest range of a hit that counts, metres: farther off a small turn is a large error."""
 
-GATE = 0.15
+GATE = 0.08
 """Largest distance of a hit from a wall of the plan that it is of, metres: less than the depth of
 furniture before the wall."""
 
@@ -30,8 +30,14 @@ HIT_STD, MOST_HITS = 0.03, 40
 """Standard deviation of a hit from its wall, metres, and how many hits count as independent:
 neighbours on one wall share its error in the plan."""
 
-STEP_STD = (0.02, 0.02, math.radians(0.5))
-"""Standard deviation of the drift between two corrections, metres and radians."""
+DRIFT_PLACE, DRIFT_HEADING, DRIFT_TURN = 0.02, math.radians(0.7), 0.02
+"""Standard deviation of the drift of the place in a metre, metres; of the heading in a metre,
+radians; and of the heading in a turn by a radian, radians. A robot that stands does not drift, so
+furniture before a wall cannot draw its pose away for long."""
+
+LEAST_DRIFT = 1e-4
+"""Standard deviation of the drift of a robot that does not move, metres and radians: a small number
+with which the fit is determined."""
 
 LEAST_HITS = 10
 """With fewer hits on walls there is no correction."""
@@ -52,6 +58,7 @@ class PlanPose:
     def __init__(self, walls: FloatArray, mount: Pose, beams: FloatArray) -> None:
         self._walls, self._mount, self._beams = walls, mount, beams
         self._frame: Pose = ORIGIN
+        self._last: Pose = ORIGIN
         self._steps = 0
 
     def update(self, odometry: Pose, ranges: FloatArray) -> Pose:
@@ -67,13 +74,23 @@ class PlanPose:
             counted[::BEAM_STEP] = True
             counted &= (ranges > 0.0) & (ranges < FARTHEST)
             hits = points_to_parent(self._mount, (ranges[:, None] * self._beams)[counted])
-            pose = fitted_to_walls(pose, hits, self._walls)
+            pose = fitted_to_walls(
+                pose, hits, self._walls, drift_of(relative(self._last, odometry))
+            )
+            self._last = odometry
             self._frame = compose(pose, relative(odometry, ORIGIN))
         self._steps += 1
         return pose
 
 
-def fitted_to_walls(pose: Pose, hits: FloatArray, walls: FloatArray) -> Pose:
+def drift_of(motion: Pose) -> Pose:
+    """Standard deviations of the drift of a motion, x, y (metres) and heading (radians)."""
+    metres = math.hypot(motion[0], motion[1])
+    place = LEAST_DRIFT + DRIFT_PLACE * metres
+    return place, place, LEAST_DRIFT + DRIFT_HEADING * metres + DRIFT_TURN * abs(motion[2])
+
+
+def fitted_to_walls(pose: Pose, hits: FloatArray, walls: FloatArray, drift: Pose) -> Pose:
     """The likeliest pose, given where the robot believed to be and its hits on known walls.
 
     One Gauss-Newton step of point-to-line matching (Censi 2008, eq. (2)) with the belief as a
@@ -83,6 +100,7 @@ def fitted_to_walls(pose: Pose, hits: FloatArray, walls: FloatArray) -> Pose:
         pose: believed pose, in the frame of the walls.
         hits: robot frame, metres, shape (m, 2).
         walls: x and y of both ends, shape (n, 4).
+        drift: standard deviations of the belief, x, y (metres) and heading (radians).
     """
     if len(hits) < LEAST_HITS or not len(walls):
         return pose
@@ -104,6 +122,6 @@ def fitted_to_walls(pose: Pose, hits: FloatArray, walls: FloatArray) -> Pose:
     turned = normal[:, 1] * arm[:, 0] - normal[:, 0] * arm[:, 1]
     slopes = np.column_stack((normal, turned))
     weight = min(1.0, MOST_HITS / len(slopes)) / HIT_STD**2
-    information = weight * slopes.T @ slopes + np.diag(1.0 / np.square(STEP_STD))
+    information = weight * slopes.T @ slopes + np.diag(1.0 / np.square(drift))
     dx, dy, turn = np.linalg.solve(information, -weight * slopes.T @ error).tolist()
     return pose[0] + dx, pose[1] + dy, wrap_angle(pose[2] + turn)
