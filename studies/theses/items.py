@@ -380,15 +380,13 @@ ITEMS = (
         "chapter 1",
         "houses are searched: victims found, rooms covered, with the plan",
         "no figure",
-        "{}; {}",
-        "python -m studies search --houses 200",
+        "{}; {}; by a wheelchair {}; {}",
+        "python -m studies search --agents searcher",
         tuple(
             [
-                Figure("lab/search_and_rescue.md", (row,), "with the plan (`searcher`)")
-                for row in (
-                    "victims found",
-                    "rooms covered by 95 % (Wilson's interval of the share)",
-                )
+                Figure("lab/search_and_rescue.md", (body,), column)
+                for body in ("SPOT", "wheelchair")
+                for column in ("victims", "rooms covered by 95 %")
             ]
         ),
     ),
