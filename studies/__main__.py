@@ -40,6 +40,7 @@ STUDIES = CommandTable(
         "ray_cost": ("studies.ray_cost", "what a training on Ray costs"),
         "limits": ("studies.translating.limits", "show when it is best to act, to ask, to refuse"),
         "refine": ("studies.translating.refining", "let the translator learn from new authors"),
+        "said": ("studies.said.command", "commands to find people in people's words"),
         "search": ("studies.search.command", "houses searched with their plan and without"),
         "segmentation": ("studies.segmentation.command", "how walls are cut into pieces"),
         "speech": ("studies.speech.command", "the speech parser, with fillers and without commas"),
@@ -48,6 +49,7 @@ STUDIES = CommandTable(
         "train_doors": ("studies.door_scorer.train_doors", "train the scorer of doors"),
         "translator": ("studies.translating.command", "train the translator"),
         "unsaid": ("studies.unsaid.command", "what implicit steps are good for"),
+        "voices": ("studies.voices.command", "somebody in another room found by voice"),
         "wordless": ("studies.wordless.command", "the listener without its words: a learned floor"),
     },
 )

@@ -22,6 +22,7 @@ from semnav_env.language.finding_clauses import (
 )
 from semnav_env.language.rooms import plain_name
 from semnav_env.mind.belief import BeliefTracker
+from semnav_env.rescue.call_and_listen import NEXT_CALL_DISTANCE, STILL_SPEED, STILL_YAW_RATE
 from semnav_env.rescue.microphones import USUAL_MICROPHONES, MicrophoneArray, MicrophoneSettings
 from semnav_env.rescue.person_map import PersonTrack
 from semnav_env.rescue.person_search import PersonSearch
@@ -43,9 +44,6 @@ TALKING_SECONDS = 2.0
 LOCATED_STD = 1.0
 """Largest standard deviation of a place in any direction with which a voice makes a track,
 metres."""
-
-STILL_SPEED, STILL_YAW_RATE = 0.02, 0.05
-"""Below both a robot stands still, m/s and rad/s: its own noise would drown an answer."""
 
 
 @dataclass
@@ -71,10 +69,11 @@ class PersonFinder(PersonSearch):
     """The payload for all clauses to find people; give it as `payload=` to `SemNavEnv`.
 
     It is a `PersonSearch` with microphones and a voice. When the robot believes that it is to call,
-    it calls as soon as it has stood still for as long as a call and its answers last. Directions of
-    one voice from several places make a track in the map of people. When it is to ask for a name,
-    it asks the nearest person within `SearchRules.person_distance` and behind no wall, who says the
-    name if he or she can answer.
+    it calls as soon as it has stood still for as long as a call and its answers last. On its way to
+    a person it calls again wherever it stands so long, as long as somebody has answered whose place
+    is not known. Directions of one voice from several places make a track in the map of people.
+    When it is to ask for a name, it asks the nearest person within `SearchRules.person_distance`
+    and behind no wall, who says the name if he or she can answer.
 
     Args:
         detector: rates and errors of the detector.
@@ -83,11 +82,11 @@ class PersonFinder(PersonSearch):
         microphones: their errors, and who can answer.
 
     Attributes:
-        calls: number of calls so far.
+        voices: directions of each person's voice, by number of the person, odometry frame.
     """
 
     microphones: MicrophoneSettings
-    calls: int
+    voices: dict[int, list[HeardVoice]]
 
     def __init__(
         self,
@@ -109,10 +108,15 @@ class PersonFinder(PersonSearch):
         self._dealt = drawn.permutation(len(NAMES)).tolist()
         self._regions = (*plan.rooms, *plan.areas, *plan.corridors, *plan.intersections)
         self._pose, self._log, self._ended = start, ClauseLog(), False
-        self._voices: dict[int, list[HeardVoice]] = {}
+        self.voices = {}
         self._heard: dict[int, PersonTrack] = {}
         self._visited, self._reached = set[int](), set[int]()
-        self.calls = 0
+        self._called_at: list[Pose] = []
+
+    @property
+    def calls(self) -> int:
+        """Number of calls so far."""
+        return len(self._called_at)
 
     def update(self, motion: Motion, tracker: BeliefTracker) -> None:
         """See `Payload`."""
@@ -126,7 +130,8 @@ class PersonFinder(PersonSearch):
         self._log.still = self._log.still + motion.seconds if stands else 0.0
         follower = tracker.follower
         clause = None if follower.done else follower.command.clauses[follower.active]
-        if isinstance(clause, CallOut) and not self._log.called:
+        first = isinstance(clause, CallOut) and not self._log.called
+        if first or (isinstance(clause, GoToPerson | AskName) and self._calls_again(tracker)):
             self._call(tracker.belief.pose)
         if isinstance(clause, AskName) and self._log.still >= TALKING_SECONDS:
             self._ask(tracker.belief.pose)
@@ -141,13 +146,20 @@ class PersonFinder(PersonSearch):
             off = np.abs(np.angle(np.exp(1j * (angles - self.detector.mount[2]))))
             log.looked |= off <= self.settings.field_of_view / 2
 
+    def _calls_again(self, tracker: BeliefTracker) -> bool:
+        """Whether a call from here may locate somebody who has answered."""
+        here = tracker.belief.pose[:2]
+        near = any(math.dist(here, each[:2]) < NEXT_CALL_DISTANCE for each in self._called_at)
+        return not near and not self.voices.keys() <= self._heard.keys()
+
     def _call(self, believed: Pose) -> None:
         """Call once the robot has stood still for long enough, and locate who answers."""
         if self._log.still < self.microphones.listening:
             return
-        self._log.called, self.calls = True, self.calls + 1
+        self._log.called = True
+        self._called_at.append(believed)
         for person, bearing, std in self._array.call(self._pose):
-            voices = self._voices.setdefault(person, [])
+            voices = self.voices.setdefault(person, [])
             voices.append(HeardVoice(believed, bearing, std))
             found = fix(voices)
             if found is not None and _largest_std(found.covariance) <= LOCATED_STD:
@@ -228,7 +240,11 @@ class PersonFinder(PersonSearch):
         return super().start_info() | {"microphones": vars(self.microphones).copy()}
 
     def final_info(self) -> dict[str, Any]:
-        """See `Payload`: also where people are believed to be, world frame, and their names."""
+        """See `Payload`: also where people are believed to be, world frame, and their names.
+
+        `voices` are the places by voice alone, with their largest standard deviation, metres, by
+        number of the person, of those whose directions cross.
+        """
         people = [
             {
                 "place": to_parent(self._frame, track.place),
@@ -238,7 +254,17 @@ class PersonFinder(PersonSearch):
             }
             for track in self.people.tracks
         ]
-        return super().final_info() | {"found": {"people": people, "calls": self.calls}}
+        fixes = {person: fix(voices) for person, voices in self.voices.items()}
+        by_voice = {
+            person: {
+                "place": to_parent(self._frame, each.place),
+                "std": _largest_std(each.covariance),
+            }
+            for person, each in fixes.items()
+            if each is not None
+        }
+        found = {"people": people, "calls": self.calls, "voices": by_voice}
+        return super().final_info() | {"found": found}
 
 
 def _largest_std(covariance: NDArray[np.float64]) -> float:

@@ -13,7 +13,7 @@ from semnav_features.clouds import MesStep
 from semnav_scripts.progress import tracked
 from studies.clouds import detectors
 from studies.clouds.detectors import CloudResult, Look, Sensor, judge
-from studies.clouds.scenes import POSES, CloudScene, draw_scenes
+from studies.clouds.scenes import POSES, SHUT, CloudScene, draw_scenes
 from studies.sheets import Cell, ResultSheet
 
 FROZEN_SEED = 2021
@@ -48,12 +48,14 @@ class Arguments:
     Attributes:
         scenes: of each category.
         seed: of the scenes; the default are those that are reported.
+        shut: doors that are shut, of glass and of wood, instead of hers, which are open.
         ablation: leave out each step of her pipeline instead of comparing detectors.
         json: print as JSON.
     """
 
     scenes: int = 100
     seed: int = FROZEN_SEED
+    shut: bool = False
     ablation: bool = False
     json: bool = False
 
@@ -62,17 +64,18 @@ class Arguments:
         if self.scenes < 1 or self.seed < 0:
             raise ValueError("--scenes must be at least 1, and --seed at least 0")
         looks = ABLATION if self.ablation else DETECTORS
+        categories = tuple(SHUT if self.shut else POSES)
         results: dict[str, dict[str, list[CloudResult]]] = {
-            name: {category: [] for category in POSES} for name in looks
+            name: {category: [] for category in categories} for name in looks
         }
-        total = self.scenes * len(POSES)
+        total = self.scenes * len(categories)
         done: list[str] = []
-        scenes = chain(*(draw_scenes(category, self.scenes, self.seed) for category in POSES))
+        scenes = chain(*(draw_scenes(category, self.scenes, self.seed) for category in categories))
         for scene in tracked(scenes, lambda n: f"{n} of {total}", lambda: len(done) / total):
             done.append(scene.category)
             for name, result in _judged(scene, looks):
                 results[name][scene.category].append(result)
-        sheets = [_doors(results), _jambs(results)]
+        sheets = [_doors(results, categories), _jambs(results, not self.shut)]
         if self.json:
             print(json.dumps({sheet.title: sheet.records() for sheet in sheets}))
         else:
@@ -87,24 +90,28 @@ def _judged(
         yield name, judge(scene, sensor(scene), look)
 
 
-def _doors(results: dict[str, dict[str, list[CloudResult]]]) -> ResultSheet:
+def _doors(
+    results: dict[str, dict[str, list[CloudResult]]], categories: Sequence[str]
+) -> ResultSheet:
     """Doors with both jambs right, by category."""
-    hers = tuple(HERS[category][0] / HERS[category][1] for category in POSES)
-    rows: list[tuple[Cell, ...]] = [("Mes 2021, as reported, 12 clouds", *hers)]
+    rows: list[tuple[Cell, ...]] = []
+    if all(category in HERS for category in categories):
+        hers = tuple(HERS[category][0] / HERS[category][1] for category in categories)
+        rows.append(("Mes 2021, as reported, 12 clouds", *hers))
     shown = next(iter(results.values())).values()
     rows.append(("both jambs shown", *(float(np.mean([all(r.shown) for r in b])) for b in shown)))
     for name, by in results.items():
         rows.append((name, *(float(np.mean([all(r.right) for r in each])) for each in by.values())))
-    return ResultSheet("Doors found, share of the clouds", ("detector", *POSES), rows)
+    return ResultSheet("Doors found, share of the clouds", ("detector", *categories), rows)
 
 
-def _jambs(results: dict[str, dict[str, list[CloudResult]]]) -> ResultSheet:
-    """Jambs of all categories."""
+def _jambs(results: dict[str, dict[str, list[CloudResult]]], with_hers: bool) -> ResultSheet:
+    """Jambs of all categories, with what she reports if they are hers."""
     found, shown, all_jambs = (sum(HERS[c][k] for c in POSES) for k in (2, 3, 4))
     nan = float("nan")
-    rows: list[tuple[Cell, ...]] = [
-        ("Mes 2021, as reported", found / all_jambs, found / shown, nan, nan, nan, nan)
-    ]
+    rows: list[tuple[Cell, ...]] = []
+    if with_hers:
+        rows.append(("Mes 2021, as reported", found / all_jambs, found / shown, nan, nan, nan, nan))
     for name, by in results.items():
         rows.append((name, *_jamb_row([*chain(*by.values())])))
     columns = ("detector", "found", "found of shown", "false", *_ERRORS, "ms, median")

@@ -45,6 +45,10 @@ POSES: dict[str, tuple[tuple[str, Pose], ...]] = {
 """The twelve clouds of her chapter 8: the best three poses of each door in table 7.2, by category.
 Her heading 0 looks along +y."""
 
+SHUT: dict[str, Material] = {"glass": Material.GLASS, "wood": Material.LEAF}
+"""Categories of doors that are shut, by what fills them; they are seen from the poses of A and B.
+Mes 2021 has none."""
+
 PLACE_SIGMA, HEADING_SIGMA = 0.05, math.radians(3.0)
 """How exactly SPOT goes to a planned pose: standard deviation, metres and radians. Assumed."""
 
@@ -64,7 +68,7 @@ class CloudScene:
     """A robot before a door.
 
     Attributes:
-        category: A to D.
+        category: A to D, or one of `SHUT`.
         raised: the plan with leaves, windows and closets.
         door: of the plan.
         pose: true pose, world frame.
@@ -133,12 +137,13 @@ def draw_scenes(category: str, count: int, seed: int) -> Iterator[CloudScene]:
     """Scenes of one category, the poses in turn."""
     plan = load_floor_plan("villa_hall")
     for number in range(count):
-        rng = np.random.default_rng((seed, ord(category), number))
-        name, (x, y, heading) = POSES[category][number % len(POSES[category])]
+        rng = np.random.default_rng((seed, ord(category[0]), number))
+        poses = POSES["A"] + POSES["B"] if category in SHUT else POSES[category]
+        name, (x, y, heading) = poses[number % len(poses)]
         planned = x, y, heading + 0.5 * math.pi
         pose = compose(planned, _error(rng, PLACE_SIGMA, HEADING_SIGMA))
         believed = compose(pose, _error(rng, DRIFT_SIGMA, DRIFT_HEADING_SIGMA))
-        raised = _furnished(plan, plan.door(name), pose, rng)
+        raised = _furnished(plan, plan.door(name), pose, rng, SHUT.get(category))
         yield CloudScene(
             category, raised, plan.door(name), pose, believed, int(rng.integers(2**31))
         )
@@ -149,12 +154,20 @@ def _error(rng: np.random.Generator, place: float, heading: float) -> Pose:
     return dx, dy, turn
 
 
-def _furnished(plan: FloorPlan, door: PlanDoor, pose: Pose, rng: np.random.Generator) -> RaisedPlan:
-    """The plan with a leaf in the room, and a window and a closet beside the door."""
+def _furnished(
+    plan: FloorPlan, door: PlanDoor, pose: Pose, rng: np.random.Generator, filled: Material | None
+) -> RaisedPlan:
+    """The plan with a leaf in the room, and a window and a closet beside the door.
+
+    A door that is filled with a material is shut: its leaf stands in the opening.
+    """
     frame = (*door.start, math.atan2(door.end[1] - door.start[1], door.end[0] - door.start[0]))
     robots_side = math.copysign(1.0, to_local(frame, pose[:2])[1])
     leaf_draw, window_draw, closet_draw = rng.random(3).tolist()
-    if leaf_draw < LEAF_SHARE:
+    if filled is not None:
+        shut = Surface((door.start, door.end), filled)
+        plan = replace(plan, surfaces=(*plan.surfaces, shut))
+    elif leaf_draw < LEAF_SHARE:
         surface = Surface(_leaf(frame, door.width, -robots_side, rng), Material.LEAF)
         plan = replace(plan, surfaces=(*plan.surfaces, surface))
     window = _window(plan, frame, door.width, rng)

@@ -11,9 +11,6 @@ BARBRET, WEERAKOON, YAN, MES = "Barbret 2021", "Weerakoon et al.", "Yan et al.",
 BY_EYE = "by eye, no figure"
 """What a document says of something that it judged by looking at pictures."""
 
-NOT_BUILT = "not built"
-"""What stands for an item that this project does not have."""
-
 
 @dataclass(frozen=True)
 class ThesisItem:
@@ -40,8 +37,7 @@ class ThesisItem:
     def row(self) -> tuple[str, str, str, str, str]:
         """Section, what, theirs, ours and command, as a line of the table has them."""
         ours = self.ours.format(*[figure.read() for figure in self.figures])
-        command = f"`{self.command}`" if self.command else ""
-        return self.section, self.what, self.theirs, ours, command
+        return self.section, self.what, self.theirs, ours, f"`{self.command}`"
 
 
 def _barbret(feature: str, section: str) -> ThesisItem:
@@ -384,15 +380,13 @@ ITEMS = (
         "chapter 1",
         "houses are searched: victims found, rooms covered, with the plan",
         "no figure",
-        "{}; {}",
-        "python -m studies search --houses 200",
+        "{}; {}; by a wheelchair {}; {}",
+        "python -m studies search --agents searcher",
         tuple(
             [
-                Figure("lab/search_and_rescue.md", (row,), "with the plan (`searcher`)")
-                for row in (
-                    "victims found",
-                    "rooms covered by 95 % (Wilson's interval of the share)",
-                )
+                Figure("lab/search_and_rescue.md", (body,), column)
+                for body in ("SPOT", "wheelchair")
+                for column in ("victims", "rooms covered by 95 %")
             ]
         ),
     ),
@@ -435,6 +429,56 @@ ITEMS = (
         )
         for robot in ("wheelchair", "SPOT")
     ],
-    ThesisItem(MES, "chapter 1", "a person is asked for the name", "no figure", NOT_BUILT, ""),
+    ThesisItem(
+        MES,
+        "chapter 1",
+        "somebody in another room who answers: heard, met, error of the place by voice alone in m",
+        "no figure",
+        "{}, {} met; {} (median)",
+        "python -m studies voices",
+        tuple(
+            [
+                Figure("lab/search_and_rescue.md", (eyes,), column)
+                for eyes, column in (
+                    ("with the camera", "heard"),
+                    ("with the camera", "met"),
+                    ("by voice alone", "error, m, median"),
+                )
+            ]
+        ),
+    ),
+    ThesisItem(
+        MES,
+        "chapter 6",
+        "six actions as told, asking for the name among them: commands in people's words, "
+        "understood, asked about rightly, misread",
+        "no figure",
+        "{}, {}, {} of {} in English; {}, {}, {} of {} in German",
+        "python -m studies said",
+        tuple(
+            [
+                Figure("lab/search_and_rescue.md", (language,), column)
+                for language in ("English", "German")
+                for column in ("understood", "asked", "misread", "n")
+            ]
+        ),
+    ),
+    *[
+        ThesisItem(
+            MES,
+            "chapter 8",
+            f"shut doors of {kind} in clouds, from the poses of A and B: both jambs found",
+            "no figure",
+            "{}, with the 2D lidar {}",
+            "python -m studies clouds --shut",
+            tuple(
+                [
+                    Figure("lab/point_clouds.md", (name,), kind)
+                    for name in ("DoorFinder", "DoorFinder and 2D lidar")
+                ]
+            ),
+        )
+        for kind in ("glass", "wood")
+    ],
 )
 """All of them, in the order of the documents."""

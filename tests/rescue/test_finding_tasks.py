@@ -9,7 +9,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from semnav_agents.searching.finding_tasks import LookTask
+from semnav_agents.searching.finding_tasks import LookTask, Percepts
 from semnav_agents.searching.house_plan import HousePlan, numbers_of, room_entered
 from semnav_agents.searching.settings import SearchSettings
 from semnav_agents.searching.views import Looker
@@ -64,7 +64,7 @@ def test_a_body_that_turns_where_it_goes_to_look_around_touches_no_wall(
 ) -> None:
     looker = Looker(robot, math.radians(120.0), 6.0)
     pose: Pose = (x, y, heading)
-    step = LookTask(CHART, looker, pose).next_step(pose, [])
+    step = LookTask(CHART, looker, pose).next_step(pose, Percepts([]))
     assume(step.target is not None)
     assert step.target is not None
     place_x, place_y, turned = step.target
@@ -80,7 +80,7 @@ def test_a_robot_that_something_holds_up_looks_around_to_the_other_side() -> Non
     x, y, turned, least = 4.8, 2.4, 0.0, 0.0
     task = LookTask(CHART, looker, (x, y, 0.0))
     for _ in range(400):
-        step = task.next_step((x, y, turned), [])
+        step = task.next_step((x, y, turned), Percepts([]))
         turned = min(turned + step.yaw_rate / 15.0, math.radians(100.0))
         least = min(least, turned)
     assert least <= math.radians(100.0) - math.tau
@@ -91,6 +91,6 @@ def test_a_robot_that_cannot_turn_at_all_stops_trying() -> None:
     pose: Pose = (4.8, 2.4, 0.0)
     task = LookTask(CHART, Looker(WHEELCHAIR, math.radians(120.0), 6.0), pose)
     for _ in range(100):
-        step = task.next_step(pose, [])
+        step = task.next_step(pose, Percepts([]))
     assert step.target is None
     assert step.yaw_rate == 0.0

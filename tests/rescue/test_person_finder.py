@@ -31,6 +31,7 @@ from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import PassGoal, StopGoal
 from semnav_env.rescue import MicrophoneSettings, PersonFinder
 from semnav_env.rescue.microphones import MicrophoneArray
+from semnav_env.robots import WHEELCHAIR
 from semnav_env.world.maps import FloorPlan, Material, Surface, load_floor_plan
 from semnav_features.frames import Pose
 
@@ -194,3 +195,98 @@ def test_the_agent_finds_a_person_and_learns_the_name(robot: str) -> None:
     [person] = [each for each in info["found"]["people"] if each["reported"]]
     assert math.dist(person["place"], (-0.6, -2.8)) <= 1.0
     assert person["name"] is not None
+
+
+def finder_in(pose: Pose, command: str) -> tuple[Finder, SemNavEnv, dict[str, Any]]:
+    """A wheelchair at the beginning of an episode in the villa, and what it sees."""
+    agent = Finder()
+    env = SemNavEnv(
+        "wheelchair", VILLA, payload=PersonFinder(), observation=agent.observation, odometry="exact"
+    )
+    agent.read_plan(VILLA)
+    observation, info = env.reset(seed=0, options={"command": command, "pose": pose})
+    agent.reset(info)
+    agent.act(observation)
+    return agent, env, observation
+
+
+def clearance_to(points: np.ndarray, place: tuple[float, float]) -> float:
+    """Distance of the nearest of some points from a place, metres."""
+    return float(np.hypot(*(points - place).T).min())
+
+
+@pytest.mark.parametrize(
+    ("pose", "corner"),
+    [
+        ((-1.46, 4.5, -3.0), (-WHEELCHAIR.length / 2, -WHEELCHAIR.width / 2)),
+        ((-4.83, 4.63, -1.99), (-0.44, WHEELCHAIR.width / 2)),
+    ],
+)
+def test_a_wall_behind_that_was_never_hit_is_an_obstacle(
+    pose: Pose, corner: tuple[float, float]
+) -> None:
+    """The lidar sees 270 degrees; the wall almost touches the body, behind it."""
+    agent, _, observation = finder_in(pose, "go down the hallway")
+    near = agent.obstacles(observation).near((0.0, 0.0, 0.0), 2.0)
+    assert clearance_to(near, corner) < 0.08
+
+
+def test_a_wall_that_was_passed_in_a_search_is_an_obstacle_of_the_way_back() -> None:
+    """Among the obstacles of recent scans, which are updated in a search, too."""
+    agent, env, observation = finder_in((1.5, -1.2, -math.pi / 2), "search this room")
+    for _ in range(40):
+        observation, *_ = env.step(agent.act(observation))
+    seen = agent.recent.points()
+    assert len(seen) > 100
+    assert clearance_to(agent.obstacles(observation).points(), seen[0]) < 0.01
+
+
+def test_a_robot_that_looks_around_does_not_turn_into_what_stands_beside_it() -> None:
+    """Its rear would sweep through a person behind it."""
+    agent = Finder()
+    x, y, _ = pose = (4.8, 2.4, 0.0)
+    plan = with_person(x - 0.9, y + 0.62)
+    env = SemNavEnv("wheelchair", plan, payload=PersonFinder(), observation=agent.observation)
+    agent.read_plan(VILLA)
+    observation, info = env.reset(seed=0, options={"command": "look around", "pose": pose})
+    for step in steps(env, agent, observation, info):
+        info = step.info
+    assert info["collisions"] == 0
+
+
+def test_a_person_who_is_heard_alone_is_gone_to_and_seen() -> None:
+    """From the hall nobody in the living room is in view."""
+    agent = Finder()
+    payload = PersonFinder(microphones=MicrophoneSettings(answers=1.0))
+    plan = with_person(5.8, 1.2)
+    env = SemNavEnv("spot", plan, payload=payload, observation=agent.observation)
+    agent.read_plan(VILLA)
+    told = {"command": "call and listen and go to the person you found", "pose": HALL}
+    observation, info = env.reset(seed=1, options=told)
+    for step in steps(env, agent, observation, info):
+        info = step.info
+    assert info["verdicts"] == ("done", "done")
+    assert info["found"]["calls"] >= 2
+    [person] = [each for each in info["found"]["people"] if each["reported"]]
+    assert math.dist(person["place"], (5.8, 1.2)) < 0.5
+
+
+def test_who_is_behind_a_closed_door_is_placed_by_voice_alone() -> None:
+    """Where the directions cross, with a standard deviation that agrees with the error."""
+    agent = Finder()
+    payload = PersonFinder(microphones=MicrophoneSettings(answers=1.0))
+    door = VILLA.door("living")
+    closed = Surface((door.start, door.end), Material.LEAF)
+    plan = with_person(4.0, 1.2)
+    doors = tuple(replace(each, open=each is not door) for each in plan.doors)
+    plan = replace(plan, surfaces=(*plan.surfaces, closed), doors=doors)
+    env = SemNavEnv("spot", plan, payload=payload, observation=agent.observation)
+    agent.read_plan(VILLA)
+    told = {"command": "call and listen and go to the person you found", "pose": HALL}
+    observation, info = env.reset(seed=2, options=told)
+    for step in steps(env, agent, observation, info):
+        info = step.info
+    assert info["verdicts"] == ("done", "incomplete")
+    assert not any(each["reported"] for each in info["found"]["people"])
+    [heard] = info["found"]["voices"].values()
+    assert math.dist(heard["place"], (4.0, 1.2)) < 3.0 * heard["std"]

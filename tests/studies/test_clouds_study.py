@@ -2,12 +2,15 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from semnav_features.clouds import DetectedDoor
+from semnav_features.clouds.detected_door import frame_of
+from semnav_features.frames import points_to_local
 from studies.clouds import detectors
 from studies.clouds.detectors import judge
-from studies.clouds.scenes import POSES, draw_scenes
+from studies.clouds.scenes import POSES, SHUT, draw_scenes
 
 
 @pytest.mark.parametrize("category", POSES)
@@ -41,3 +44,16 @@ def test_a_jamb_that_was_not_seen_is_neither_right_nor_wrong():
 def test_before_the_door_the_finder_finds_both_jambs():
     found = [judge(s, detectors.spot(s), detectors.finder) for s in draw_scenes("A", 6, 5)]
     assert sum(sum(result.right) for result in found) >= 11
+
+
+def test_cameras_see_through_a_shut_door_of_glass_and_not_of_wood():
+    """Behind the wall line is what lies in the room."""
+    behind = {}
+    for kind in SHUT:
+        scene = next(draw_scenes(kind, 1, 5))
+        frame = frame_of(scene.truth)
+        points = points_to_local(frame, scene.hits.cloud.points_robot[:, :2])
+        inside = np.abs(points[:, 0]) < scene.door.width / 2 - 0.2
+        side = math.copysign(1.0, points_to_local(frame, np.zeros((1, 2)))[0, 1])
+        behind[kind] = np.count_nonzero(inside & (-side * points[:, 1] > 0.3))
+    assert behind["glass"] > 5 * (behind["wood"] + 1)

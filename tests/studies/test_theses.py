@@ -9,7 +9,7 @@ import pytest
 from semnav_scripts.main import SEMNAV
 from studies.__main__ import STUDIES
 from studies.theses.command import SOURCES, page
-from studies.theses.items import ITEMS, NOT_BUILT
+from studies.theses.items import ITEMS
 from studies.theses.lab_tables import DOCS, Figure
 
 
@@ -22,11 +22,8 @@ def test_every_document_has_its_section() -> None:
 
 
 @pytest.mark.parametrize("item", ITEMS, ids=lambda item: f"{item.document} {item.what}")
-def test_every_item_that_is_built_has_a_command_that_exists(item) -> None:
+def test_every_item_has_a_command_that_exists(item) -> None:
     words = item.command.split()
-    if not words:
-        assert NOT_BUILT in item.ours
-        return
     if words[0] == "semnav":
         assert words[1] in {name.split()[0] for name in SEMNAV.commands}
     elif words[2] == "studies.figures":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from semnav_agents.planning.obstacles import (
 )
 from semnav_agents.planning.planner import PlannerSettings
 from semnav_agents.searching.house_plan import KNOWN_MARGIN, HousePlan
+from semnav_agents.searching.plan_pose import PlanPose
 from semnav_agents.searching.search_map import FREE, SearchMap, without_lost
 from semnav_agents.searching.searcher import Searcher
 from semnav_agents.searching.settings import SearchSettings
@@ -103,6 +105,7 @@ class Explorer:
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action; the robot stands still when nothing is left to inspect."""
+        observation = self._localised(observation)
         pose, _ = read_odometry(observation)
         self._see(pose, observation["scan"])
         people = people_of(observation, pose)
@@ -114,11 +117,13 @@ class Explorer:
     ) -> NDArray[np.float32]:
         """The action that leads to a pose; standing still if there is none."""
         pose, velocity = read_odometry(observation)
-        if target is None:
-            return self._pilot.act(self._remembered, NO_DOORS, _stop(), pose, velocity)
         self._pilot.driver.planner = CAREFUL_PLANNER if careful else STUCK_PLANNER
-        goal = SeenGoal(GoalKind.REACH, relative(pose, target), None)
-        return self._pilot.act(self._points(observation, pose), NO_DOORS, goal, pose, velocity)
+        known, goal = self._points(observation, pose), goal_at(target, pose)
+        return self._pilot.act(known, NO_DOORS, goal, pose, velocity)
+
+    def _localised(self, observation: Observation) -> Observation:
+        """The observation with the pose that is believed instead of that of the odometry."""
+        return observation
 
     def _new_chart(self, info: dict[str, Any]) -> SearchMap:
         half = self.settings.half_side
@@ -151,8 +156,8 @@ class Explorer:
 class PlanSearcher(Explorer):
     """Searches a house whose plan it knows: walls, doors and rooms, but no furniture.
 
-    It knows its start pose in the plan; from then on it uses its believed pose, whose drift is
-    corrected by walls that are seen again.
+    It knows its start pose in the plan; from then on the walls of the plan that it sees correct the
+    drift of its odometry.
     """
 
     def __init__(self, settings: SearchSettings = SearchSettings()) -> None:
@@ -168,7 +173,18 @@ class PlanSearcher(Explorer):
             raise ValueError("the searcher knows the plan: call read_plan before reset")
         self._known_plan = self._plan
         self._house = HousePlan(self._plan, info["pose"])
+        own = self._pilot.robot.lidar_mount, self._beams
+        self._place = PlanPose(self._house.walls, *own)
         return self._house.chart(self.settings)
+
+    def _localised(self, observation: Observation) -> Observation:
+        """The observation with the pose in the frame of the plan."""
+        pose, _ = read_odometry(observation)
+        ranges = observation["scan"].astype(np.float64)
+        x, y, heading = self._place.update(pose, ranges)
+        odometry = observation["odometry"].copy()
+        odometry[:4] = x, y, math.cos(heading), math.sin(heading)
+        return {**observation, "odometry": odometry}
 
 
 def people_of(observation: Observation, pose: Pose) -> list[tuple[Point, float, bool]]:
@@ -179,5 +195,8 @@ def people_of(observation: Observation, pose: Pose) -> list[tuple[Point, float, 
     ]
 
 
-def _stop() -> SeenGoal:
-    return SeenGoal(GoalKind.STOP, ORIGIN, None)
+def goal_at(target: Pose | None, pose: Pose) -> SeenGoal:
+    """The goal to reach a target, in the frame of `pose`; to stand still if there is none."""
+    if target is None:
+        return SeenGoal(GoalKind.STOP, ORIGIN, None)
+    return SeenGoal(GoalKind.REACH, relative(pose, target), None)

@@ -8,9 +8,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
-from semnav_agents.scripted import ScriptedAgent
-from semnav_agents.searching.agent import PlanSearcher, people_of
-from semnav_agents.searching.finding_tasks import FindingTask, LookTask, PersonTask, SearchTask
+from semnav_agents.planning.guard import safe_share
+from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
+from semnav_agents.planning.perception import Perception
+from semnav_agents.planning.planner import PlannerSettings
+from semnav_agents.scripted import with_felt_walls
+from semnav_agents.searching.agent import (
+    CAREFUL_PLANNER,
+    NO_DOORS,
+    STUCK_PLANNER,
+    PlanSearcher,
+    goal_at,
+    people_of,
+)
+from semnav_agents.searching.finding_tasks import (
+    FindingTask,
+    LookTask,
+    Percepts,
+    PersonTask,
+    SearchTask,
+)
 from semnav_agents.searching.house_plan import numbers_of, room_entered
 from semnav_env.language import (
     CLAUSE_FEATURES,
@@ -31,29 +48,50 @@ from semnav_env.mind.observations import (
     PaceEntry,
     SeenGoal,
     read_odometry,
+    read_pace,
+    table,
 )
+from semnav_env.rescue.microphones import USUAL_MICROPHONES, MicrophoneSettings
 from semnav_env.rescue.people_entry import PeopleEntry
+from semnav_env.rescue.voices_entry import VoicesEntry, read_voices
 from semnav_env.robots.actions import shares_of
-from semnav_features.frames import Point, Pose, Twist
+from semnav_features.frames import FloatArray, Point, Pose, Twist, compose, points_to_parent
+
+ALONE = np.zeros(1, np.int64)
+"""The number of the only robot that a `Finder` drives."""
+
+NEAR = 3.0
+"""Distance within which obstacles are those of recent scans, metres: there the map of the whole
+house is off by the drift since it was made."""
+
+TOUCHING = 1.0
+"""Distance within which hits of the present scan count by themselves, metres: what is remembered is
+a mean, which lags behind the drift."""
+
+USUAL_PLANNER = PlannerSettings()
+"""Planner settings of the way between clauses to find people, as `ScriptedAgent` has them."""
 
 
 class Finder(PlanSearcher):
     """Drives like `ScriptedAgent`, and finds people like `PlanSearcher`.
 
     It hears the command by its tokens. It knows walls, doors and rooms of the plan, but neither
-    furniture nor people.
+    furniture nor people. One pilot drives all ways, among the same obstacles: those of recent scans
+    nearby, those of the map of the house farther off, and the walls that were not seen yet.
     """
 
     @property
     def observation(self) -> str | ObservationType:
-        """All entries, the pace, and the people."""
-        return EntryObservation("all", (PaceEntry(), PeopleEntry()))
+        """All entries, the pace, the people and the voices."""
+        return EntryObservation("all", (PaceEntry(), PeopleEntry(), VoicesEntry()))
 
     def reset(self, info: dict[str, Any]) -> None:
         """Begin an episode with the body, the lidar and the detector of `info`."""
         super().reset(info)
-        self._driver = ScriptedAgent()
-        self._driver.reset(info)
+        self._perception = Perception(1)
+        self._perception.reset(0, self._pilot.robot.lidar_mount, self._lidar)
+        told = info.get("microphones")
+        self._microphones = MicrophoneSettings(**told) if told else USUAL_MICROPHONES
         self._command: Command | None = None
         self._under_way = -1
         self._task: FindingTask | None = None
@@ -61,15 +99,60 @@ class Finder(PlanSearcher):
 
     def act(self, observation: Observation) -> NDArray[np.float32]:
         """The next action."""
-        pose, _ = read_odometry(observation)
+        observation = self._localised(observation)
+        pose, velocity = read_odometry(observation)
         self._see(pose, observation["scan"])
+        self._perception.update(observation["odometry"][None], observation["scan"][None], ALONE)
         task = self._current_task(observation)
         if task is None:
-            return self._driver.act(observation)
-        step = task.next_step(pose, people_of(observation, pose))
+            doors = table(observation, "remembered_doors").astype(np.float64)
+            return self._go(observation, SeenGoal.read(observation["goal"]), doors, USUAL_PLANNER)
+        seen = Percepts(people_of(observation, pose), read_voices(observation, pose))
+        step = task.next_step(pose, seen)
         if step.yaw_rate:
-            return shares_of((0.0, 0.0, step.yaw_rate), self._pilot.robot)
-        return self._drive(observation, step.target, careful=step.careful)
+            return self._turn(self.obstacles(observation), step.yaw_rate, pose, velocity)
+        planner = CAREFUL_PLANNER if step.careful else STUCK_PLANNER
+        return self._go(observation, goal_at(step.target, pose), NO_DOORS, planner)
+
+    @property
+    def recent(self) -> Obstacles:
+        """What recent scans have shown, odometry frame."""
+        return self._perception.obstacles[0]
+
+    def obstacles(self, observation: Observation) -> Obstacles:
+        """What is known to stand around, odometry frame."""
+        pose, _ = read_odometry(observation)
+        here, house = np.array(pose[:2]), self._points(observation, pose)
+        beyond = np.hypot(*(house - here).T) > NEAR
+        ranges = observation["scan"].astype(np.float64)
+        eye = compose(pose, self._pilot.robot.lidar_mount)
+        hits = points_to_parent(eye, (ranges[:, None] * self._beams)[ranges < TOUCHING])
+        sure = np.vstack((house[beyond], self._unseen, hits))
+        known = JoinedObstacles((self.recent, as_obstacles(sure)))
+        return with_felt_walls(known, observation, pose)
+
+    def _go(
+        self,
+        observation: Observation,
+        goal: SeenGoal,
+        doors: FloatArray,
+        planner: PlannerSettings,
+    ) -> NDArray[np.float32]:
+        """The action that leads to a goal."""
+        pose, velocity = read_odometry(observation)
+        self._pilot.driver.planner = planner
+        moving = self._perception.moving(0, pose, observation["scan"])
+        known, pace = self.obstacles(observation), read_pace(observation)
+        return self._pilot.act(known, doors, goal, pose, velocity, moving, pace)
+
+    def _turn(
+        self, obstacles: Obstacles, yaw_rate: float, pose: Pose, velocity: Twist
+    ) -> NDArray[np.float32]:
+        """The action that turns on the spot, slower or not at all where the body would touch."""
+        robot = self._pilot.robot
+        near = obstacles.near(pose, 1.5 * robot.length)
+        share = safe_share(near, (0.0, 0.0, yaw_rate), velocity, robot)
+        return shares_of((0.0, 0.0, share * yaw_rate), robot)
 
     def _current_task(self, observation: Observation) -> FindingTask | None:
         """The task of the clause that the robot believes to be active; None if it only drives."""
@@ -97,8 +180,8 @@ class Finder(PlanSearcher):
             case LookAround():
                 return LookTask(self._chart, self._looker, pose)
             case GoToPerson() | AskName():
-                again = isinstance(clause, AskName)
-                return PersonTask(self._chart, self._looker, self._visited, again=again)
+                own = self._chart, self._looker, self._microphones, self._visited
+                return PersonTask(*own, again=isinstance(clause, AskName))
         return None
 
     def _room_of(self, clause: SearchRoom, pose: Pose, velocity: Twist) -> int:

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from semnav_agents.searching.search_map import SearchMap
 from semnav_agents.searching.searcher import SAME_PERSON, Searcher
-from semnav_agents.searching.views import Looker, place_before
+from semnav_agents.searching.views import Looker, place_before, place_towards
+from semnav_agents.searching.voice_places import VoicePlaces
 from semnav_agents.searching.ways import ways_from
+from semnav_env.rescue.microphones import MicrophoneSettings
+from semnav_env.rescue.voice_fix import HeardVoice
+from semnav_env.rescue.voices_entry import PersonVoice
 from semnav_features.frames import Point, Pose, wrap_angle
 
 TURN_RATE = 1.0
@@ -46,6 +51,13 @@ People: TypeAlias = list[tuple[Point, float, bool]]
 """Place (odometry frame), probability and whether it is reported, of each possible person."""
 
 
+class Percepts(NamedTuple):
+    """What is known of people: the possible ones, and the voices, odometry frame."""
+
+    people: People
+    voices: Sequence[PersonVoice] = ()
+
+
 class FindingStep(NamedTuple):
     """What to do in a control period: drive to a pose, or turn on the spot, or stand still.
 
@@ -63,7 +75,7 @@ class FindingStep(NamedTuple):
 class FindingTask(Protocol):
     """A clause to find people, under way."""
 
-    def next_step(self, pose: Pose, people: People) -> FindingStep:
+    def next_step(self, pose: Pose, seen: Percepts) -> FindingStep:
         """What to do now, at a believed pose."""
         ...
 
@@ -80,9 +92,9 @@ class SearchTask:
     def __init__(self, chart: SearchMap, looker: Looker, room: int | None) -> None:
         self._searcher = Searcher(chart, looker, room)
 
-    def next_step(self, pose: Pose, people: People) -> FindingStep:
+    def next_step(self, pose: Pose, seen: Percepts) -> FindingStep:
         """See `FindingTask`."""
-        target = self._searcher.update(pose, people)
+        target = self._searcher.update(pose, seen.people)
         return FindingStep(target, careful=not self._searcher.stuck)
 
 
@@ -106,9 +118,9 @@ class LookTask:
         self._least = self._most = 0.0
         self._rate, self._idle = TURN_RATE, 0
 
-    def next_step(self, pose: Pose, people: People) -> FindingStep:
+    def next_step(self, pose: Pose, seen: Percepts) -> FindingStep:
         """See `FindingTask`."""
-        del people
+        del seen
         if self._place is not None:
             self._patience -= 1
             away = math.dist(_axle(pose, self._axle), _axle(self._place, self._axle))
@@ -133,17 +145,28 @@ class LookTask:
 class PersonTask:
     """Goes to the nearest person that was found and was not gone to before.
 
+    If nobody was found, but somebody has answered, it goes to where the voice tells more. Where no
+    way leads to a person, it looks from the nearest place that it can reach.
+
     Args:
         chart: the map.
         looker: body and detector.
+        microphones: their errors by distance and walls.
         visited: places of the people to whom the robot went; it adds one.
         again: whether it may stay with the person to whom it went last.
     """
 
     def __init__(
-        self, chart: SearchMap, looker: Looker, visited: list[Point], *, again: bool
+        self,
+        chart: SearchMap,
+        looker: Looker,
+        microphones: MicrophoneSettings,
+        visited: list[Point],
+        *,
+        again: bool,
     ) -> None:
         self._chart, self._looker, self._visited = chart, looker, visited
+        self._places = VoicePlaces(chart, looker, microphones)
         self._again = again
         self._person: Point | None = None
         self._target: Pose | None = None
@@ -152,19 +175,21 @@ class PersonTask:
         self._done = False
         self._last: Pose | None = None
 
-    def next_step(self, pose: Pose, people: People) -> FindingStep:
+    def next_step(self, pose: Pose, seen: Percepts) -> FindingStep:
         """See `FindingTask`."""
         if self._again and self._visited and _is_with(pose, self._visited[-1]):
             self._done = True
         if self._done:
             return FindingStep()
         if self._person is None:
-            self._person = self._nearest(pose, people)
+            self._person = self._nearest(pose, seen.people)
         if self._person is None:
-            return FindingStep()
-        near = [each for each in people if math.dist(each[0], self._person) < SAME_PERSON]
+            return FindingStep(self._places.next_place(pose, _clearest(seen.voices)))
+        near = [each for each in seen.people if math.dist(each[0], self._person) < SAME_PERSON]
         self._person = near[0][0] if near else self._person
-        if self._target is None:
+        if self._target is None and len(self._tried) >= 2 * MOST_PLACES:
+            self._done = True
+        elif self._target is None:
             self._choose(pose)
         elif self._arrived(pose):
             self._look(any(reported for _, _, reported in near))
@@ -183,7 +208,8 @@ class PersonTask:
         half_width = self._looker.robot.width / 2 + 0.03
         ways = ways_from(self._chart, pose[:2], half_width)
         tried = self._tried if len(self._tried) < MOST_PLACES else []
-        self._target = place_before(self._chart, ways, self._looker, self._person, tried)
+        told = self._chart, ways, self._looker, self._person, tried
+        self._target = place_before(*told) or place_towards(*told)
         self._tried.append(self._person if self._target is None else self._target[:2])
         self._waited = self._looked = 0
 
@@ -211,6 +237,14 @@ class PersonTask:
             self._last, self._waited = pose, 0
         self._waited += 1
         return self._waited > self._chart.settings.patience
+
+
+def _clearest(voices: Sequence[PersonVoice]) -> list[HeardVoice]:
+    """The directions of the speaker who was heard most clearly."""
+    if not voices:
+        return []
+    person = min(voices, key=lambda each: each.voice.std).person
+    return [each.voice for each in voices if each.person == person]
 
 
 def _is_with(pose: Pose, person: Point) -> bool:

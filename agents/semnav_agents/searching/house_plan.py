@@ -40,6 +40,7 @@ class HousePlan:
         start: pose of the robot at the start, world frame, which the robot is given.
 
     Attributes:
+        walls: x and y of both ends of each wall, odometry frame, shape (n, 4).
         wall_points: on the walls, 5 cm apart, odometry frame, shape (n, 2).
     """
 
@@ -47,8 +48,8 @@ class HousePlan:
         built = (Material.WALL, Material.GLASS)
         kept = np.array([surface.material in built for surface in plan.surfaces], dtype=bool)
         walls = plan.segments[kept[plan.owners]].reshape(-1, 2)
-        segments = points_to_local(start, walls).reshape(-1, 4)
-        self.wall_points: FloatArray = points_of_segments(segments, 0.05)
+        self.walls: FloatArray = points_to_local(start, walls).reshape(-1, 4)
+        self.wall_points: FloatArray = points_of_segments(self.walls, 0.05)
         self._plan, self._start = plan, start
 
     def chart(self, settings: SearchSettings) -> SearchMap:

@@ -205,6 +205,25 @@ def place_before(
     return None
 
 
+def place_towards(
+    chart: SearchMap, ways: Ways, looker: Looker, person: Point, tried: list[Point]
+) -> Pose | None:
+    """The pose nearest to a person to whom no way leads, facing the person; see `place_before`."""
+    s = chart.settings
+    cells = np.argwhere(np.isfinite(ways.costs) & (chart.rooms >= 0))
+    points = chart.grid.points(cells)
+    away = np.hypot(*(points - person).T)
+    good = away > s.person_range[0]
+    for place in tried:
+        good &= np.hypot(*(points - place).T) > 0.6
+    size = looker.half_size(s.clearance)
+    for x, y in points[good][np.argsort(away[good])][:4000].tolist():
+        pose = x, y, math.atan2(person[1] - y, person[0] - x)
+        if fits(pose, size, ways.room, *chart.grid.frame):
+            return pose
+    return None
+
+
 def _sees(chart: SearchMap, eye: Point, person: Point) -> bool:
     """Whether no solid cell lies on the line of sight, except near the person."""
     length = math.dist(eye, person)

@@ -1,0 +1,1 @@
+"""Commands to find people, in the words that people use."""
