@@ -11,7 +11,7 @@ from scipy.spatial import KDTree
 
 from semnav_agents.base import Observation
 from semnav_agents.pilot import Pilot
-from semnav_agents.planning.driver import NO_POINTS
+from semnav_agents.planning.known_obstacles import NO_POINTS
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_env.mind.observations import (
     EntryObservation,

@@ -8,11 +8,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_agents.pilot_rules import STUCK_STEPS, count_pushing, place_aim
+from semnav_agents.planning.door_aims import SAME_DOOR_DISTANCE, jambs_facing
 from semnav_agents.planning.doorway import barriers_across
-from semnav_agents.planning.driver import NO_POINTS, Driver
+from semnav_agents.planning.driver import Driver
 from semnav_agents.planning.exit_via_door import ExitViaDoor
 from semnav_agents.planning.follower import Steering
 from semnav_agents.planning.known_obstacles import (
+    NO_POINTS,
     JoinedObstacles,
     Obstacles,
     PointObstacles,
@@ -27,30 +30,18 @@ from semnav_env.robots import RobotSpec
 from semnav_env.robots.actions import shares_of
 from semnav_features.frames import (
     FloatArray,
-    Point,
     Pose,
     Twist,
-    compose,
     points_to_parent,
     to_parent,
 )
-from semnav_features.scene import Door
 
-STUCK_STEPS, BACKING_STEPS = 8, 12
-"""Steps of pushing without moving after which a robot counts as stuck, and steps of backing out."""
+BACKING_STEPS = 12
+"""Steps for which a stuck robot backs out."""
 
 BACKING_SPEED, BACKING_YAW_RATE = 0.2, 0.3
 """Velocity with which a stuck robot backs out, m/s and rad/s: slow, because it sees little
 behind."""
-
-SAME_DOOR_DISTANCE = 0.5
-"""Distance of their middles below which two doors are the same, metres: a door is wider."""
-
-LOOKOUT_TOLERANCE = 0.4
-"""Distance at which a lookout point counts as reached, metres."""
-
-REACH_TOLERANCE, REACH_HEADING_TOLERANCE = 0.2, 0.15
-"""Distance and heading error at which a place to stop at counts as reached, metres and radians."""
 
 
 class Pilot:
@@ -106,7 +97,7 @@ class Pilot:
             obstacles = JoinedObstacles((obstacles, as_obstacles(jambs)))
         barriers = PointObstacles(lambda: self._barriers(doors, goal, pose))
         door = _side(goal, pose)
-        target = _target(goal, pose) if door is None else self._exit.target(door)
+        target = self._target(goal, pose) if door is None else self._exit.target(door)
         steering = self.driver.drive(obstacles, target, pose, velocity, barriers, moving)
         if door is not None:
             self._note(steering, obstacles)
@@ -134,6 +125,11 @@ class Pilot:
         """Points across the doors that are not the goal's, in the frame of `pose`."""
         return points_to_parent(pose, barriers_across(_other_doors(doors, goal), self.robot))
 
+    def _target(self, goal: SeenGoal, pose: Pose) -> DriveTarget:
+        """The drive target for a goal that is no door, in the frame of `pose`."""
+        seeks = goal.kind is GoalKind.SEEK
+        return DriveTarget.of(place_aim(seeks, goal.pose, pose, float(self.robot.axle)))
+
     def _note(self, steering: Steering, obstacles: Obstacles) -> None:
         """Move on to the next pose through a door, or to another way if this one failed."""
         path = self.driver.path
@@ -148,8 +144,7 @@ class Pilot:
         if self._backing > 0:
             self._backing -= 1
             return True
-        pushing = max(map(abs, self._last)) > 0.03 and max(map(abs, velocity)) < 0.02
-        self._pushed = self._pushed + 1 if pushing else 0
+        self._pushed = count_pushing(self._pushed, self._last, velocity)
         if self._pushed >= STUCK_STEPS:
             self._pushed, self._backing = 0, BACKING_STEPS
             self.driver.reset()
@@ -174,23 +169,9 @@ def _other_doors(doors: FloatArray, goal: SeenGoal) -> FloatArray:
     return others
 
 
-def _target(goal: SeenGoal, pose: Pose) -> DriveTarget:
-    """The drive target for a goal, in the frame of `pose`."""
-    place = compose(pose, goal.pose)
-    if goal.kind is GoalKind.SEEK:
-        return DriveTarget(place, LOOKOUT_TOLERANCE, None)
-    return DriveTarget(place, REACH_TOLERANCE, REACH_HEADING_TOLERANCE)
-
-
 def _side(goal: SeenGoal, pose: Pose) -> DoorSide | None:
     """The door to pass, from the side of the robot, in the frame of `pose`; None without one."""
     if goal.kind is not GoalKind.PASS or goal.door is None:
         return None
     start, end = (to_parent(pose, jamb) for jamb in goal.door)
-    door, outward = Door(start, end), pose[2] + goal.pose[2]
-    return DoorSide.seen_from(door, _in_front(door.midpoint, outward))
-
-
-def _in_front(midpoint: Point, outward: float) -> Point:
-    """A place 1 m before a door, on the side that `outward` (radians) heads away from."""
-    return midpoint[0] - math.cos(outward), midpoint[1] - math.sin(outward)
+    return DoorSide(*jambs_facing(start, end, pose[2] + goal.pose[2]))

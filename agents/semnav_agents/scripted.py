@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from semnav_agents.base import Observation
 from semnav_agents.cruise_kernels import cruise
 from semnav_agents.pilot import Pilot
-from semnav_agents.planning.cruise import CRUISE
+from semnav_agents.planning.cruise import CRUISE, GOAL_ROW, ODOMETRY_ROW
 from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_agents.planning.perception import Perception
@@ -76,7 +76,8 @@ class ScriptedTeam:
         if not {"scan", "goal"} <= observations.keys():
             raise ValueError('the scripted agent needs scan and goal: give observation="all"')
         numbers = np.array(range(len(self._pilots)) if driven is None else list(driven), np.int64)
-        seen = {name: observations[name] for name in ENTRIES if name in observations}
+        given = {name: observations[name] for name in ENTRIES if name in observations}
+        seen = {name: np.ascontiguousarray(entry) for name, entry in given.items()}
         self._perception.update(seen["odometry"], seen["scan"], numbers)
         return self._decide(seen, numbers)
 
@@ -98,8 +99,8 @@ class ScriptedTeam:
         cruise(
             self._cruises,
             driven,
-            seen["odometry"],
-            seen["goal"],
+            seen["odometry"].view(ODOMETRY_ROW)[:, 0],
+            seen["goal"].view(GOAL_ROW)[:, 0],
             paces,
             bumped | self._perception.any_moving,
             states,
@@ -129,7 +130,7 @@ class ScriptedTeam:
         """The action of a robot by its pilot."""
         pose, velocity = read_odometry(observation)
         return pilot.act(
-            with_felt_walls(self._perception.obstacles[index], observation, pose),
+            with_felt_walls(self._perception.obstacles(index), observation, pose),
             table(observation, "remembered_doors").astype(np.float64),
             SeenGoal.read(observation["goal"]),
             pose,

@@ -203,9 +203,9 @@ def corridor_along(
         opening_slack: added to the least lengths of openings, metres.
     """
     sides, openings = np.empty((2, PROBE_COUNT)), np.empty(MAX_OPENINGS, OPENING)
-    frame, half_width, end, count = write_survey(
-        walls, doors, named, pose, sides, openings, opening_slack
-    )
+    x, y, heading = map(float, pose)
+    told = walls, doors, named, (x, y, heading)
+    frame, half_width, end, count = write_survey(*told, sides, openings, float(opening_slack))
     frame = frame[0], frame[1], wrap_angle(frame[2])
     return Corridor(frame, sides[0], sides[1], half_width, end, openings[:count])
 
@@ -227,7 +227,7 @@ def axis_at(scene: StillScene, pose: Pose) -> CorridorAxis:
 def doorway_at(scene: Scene, pose: Pose) -> Door | None:
     """The door in which a robot at `pose` stands and faces through; None if there is none."""
     for k, ends in enumerate(known_ends(scene.doors)):
-        if stands_in(ends, *pose):
+        if stands_in(ends, *map(float, pose)):
             return scene.doors[k]
     return None
 

@@ -40,7 +40,7 @@ class Actions:
         left = values[1] if self._sideways else 0.0
         if not (-1.0 <= forward <= 1.0 and -1.0 <= left <= 1.0 and -1.0 <= turn <= 1.0):
             require(all(map(math.isfinite, values)), "the action", values, "finite, in [-1, 1]")
-            forward, left, turn = _cut(forward), _cut(left), _cut(turn)
+            forward, left, turn = cut_share(forward), cut_share(left), cut_share(turn)
         fastest, fastest_left, fastest_turn = self._speeds
         return forward * fastest, left * fastest_left, turn * fastest_turn
 
@@ -48,10 +48,10 @@ class Actions:
 def shares_of(twist: Twist, robot: RobotSpec) -> NDArray[np.float32]:
     """The action for a velocity: shares of a robot's largest speeds, cut to [-1, 1]."""
     forward, left, yaw_rate = twist
-    shares = [forward / robot.max_speed, yaw_rate / robot.max_turn_rate]
+    shares = [cut_share(forward / robot.max_speed), cut_share(yaw_rate / robot.max_turn_rate)]
     if robot.holonomic:
-        shares.insert(1, left / robot.max_sideways_speed)
-    return np.clip(np.array(shares, dtype=np.float32), -1.0, 1.0)
+        shares.insert(1, cut_share(left / robot.max_sideways_speed))
+    return np.array(shares, dtype=np.float32)
 
 
 def action_array(action: ArrayLike, shape: tuple[int, ...]) -> NDArray[Any]:
@@ -71,5 +71,6 @@ def action_array(action: ArrayLike, shape: tuple[int, ...]) -> NDArray[Any]:
     return array if array.dtype.kind == "f" else array.astype(np.float64)
 
 
-def _cut(share: float) -> float:
+def cut_share(share: float) -> float:
+    """A share of the largest speed, cut to [-1, 1]; kernels call this function, too."""
     return 1.0 if share > 1.0 else -1.0 if share < -1.0 else share

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from typing import Any
 
 import numpy as np
@@ -10,12 +11,14 @@ import pytest
 from semnav_agents import scripted
 from semnav_agents.planning.cruise import MAX_SAMPLES, fits
 from semnav_agents.planning.path import PlannedPath
+from semnav_agents.planning.perception import Perception
 from semnav_agents.planning.track import PathTrack
 from semnav_agents.scripted import ScriptedTeam
 from semnav_env.judge.episodes import Episode, evenly, load_episodes
-from semnav_env.robots import ROBOTS, WHEELCHAIR
+from semnav_env.robots import WHEELCHAIR
 from semnav_env.vector import SemNavVectorEnv
 from semnav_env.world.dynamics import Dynamics
+from semnav_features.lidars import TIM561
 
 STEPS = 250
 
@@ -58,11 +61,11 @@ class Counted:
         self.decided, self.asked = self.decided + int(decided.sum()), self.asked + len(given[1])
 
 
-@pytest.mark.parametrize("robot", list(ROBOTS))
-@pytest.mark.parametrize("pedestrians", [0, 4])
+@pytest.mark.parametrize(("robot", "pedestrians"), [("wheelchair", 0), ("spot", 4)])
 def test_what_compiled_code_decides_is_what_python_decides(
     robot: str, pedestrians: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """The rules are the same kernels; this compares in which order they are asked."""
     episodes = evenly(load_episodes("val_unseen"), 3)
     compiled, python = (Counted(scripted.cruise, stopped) for stopped in (False, True))
     monkeypatch.setattr(scripted, "cruise", compiled)
@@ -80,6 +83,21 @@ def test_a_team_decides_as_its_robots_would_alone() -> None:
     for k, actions in enumerate(alone):
         of_one = together[:, 3 * k : 3 * k + 3].ravel()
         assert np.array_equal(of_one[: len(actions)], actions[: len(of_one)])
+
+
+def test_a_copied_perception_goes_on_seeing() -> None:
+    perception, lidar = Perception(2), TIM561
+    perception.reset(0, (0.0, 0.0, 0.0), lidar)
+    perception.reset(1, (0.0, 0.0, 0.0), lidar)
+    copy = pickle.loads(pickle.dumps(perception))
+    here = np.array([(0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)] * 2, np.float32)
+    scan = np.full((2, len(lidar.directions)), 2.0, np.float32)
+    for each in (perception, copy):
+        for _ in range(3):
+            each.update(here, scan, np.array([1]))
+        assert not len(each.obstacles(0).points())
+        assert len(each.obstacles(1).points())
+    assert np.array_equal(copy.obstacles(1).points(), perception.obstacles(1).points())
 
 
 def test_a_path_that_is_too_long_for_a_record_does_not_fit() -> None:

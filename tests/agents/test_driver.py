@@ -8,12 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_agents.planning.doorway import barriers_across, room_behind, target_behind
-from semnav_agents.planning.driver import BACKING_SPEED, JAM_STEPS, Driver
+from semnav_agents.planning.driver import Driver
 from semnav_agents.planning.follower import PathProgress, follow
-from semnav_agents.planning.guard import safe_share
+from semnav_agents.planning.guard import GuardedBody, safe_share
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_agents.planning.planner import DriveTarget, is_free, plan
 from semnav_agents.planning.track import PathTrack
+from semnav_agents.planning.yielding import BACKING_SPEED, JAM_STEPS
 from semnav_env.robots import SPOT, WHEELCHAIR
 from semnav_features.frames import points_to_local, to_parent
 from semnav_features.scene import Door
@@ -380,10 +381,10 @@ def test_a_short_way_that_ends_near_the_target_is_driven(robot):
 
 def test_a_command_into_a_wall_is_slowed_and_one_along_it_is_not():
     wall = np.stack((np.full(50, 0.72), np.linspace(-1.0, 1.0, 50)), axis=1)
-    assert safe_share(wall, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) < 1.0
-    assert safe_share(wall, (1.0, 0.0, 0.0), (1.2, 0.0, 0.0), WHEELCHAIR) == 0.0
-    assert safe_share(wall, (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) == 1.0
-    assert safe_share(NOTHING, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), WHEELCHAIR) == 1.0
+    assert safe_share(wall, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), GuardedBody.of(WHEELCHAIR)) < 1.0
+    assert safe_share(wall, (1.0, 0.0, 0.0), (1.2, 0.0, 0.0), GuardedBody.of(WHEELCHAIR)) == 0.0
+    assert safe_share(wall, (-1.0, 0.0, 0.0), (0.0, 0.0, 0.0), GuardedBody.of(WHEELCHAIR)) == 1.0
+    assert safe_share(NOTHING, (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), GuardedBody.of(WHEELCHAIR)) == 1.0
 
 
 def rng():

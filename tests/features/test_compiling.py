@@ -10,6 +10,7 @@ from weakref import ref
 
 import numpy as np
 import pytest
+from numba import from_dtype, types
 
 from semnav_features.kernels import cache_key
 from semnav_features.kernels.compile_notice import PATIENCE, CompileNotice
@@ -17,6 +18,7 @@ from semnav_features.kernels.compiling import kernel
 from semnav_features.kernels.linking import NUMBA_FITS
 from tests.support.paths import ROOT
 from tests.support.small_kernels import (
+    PairOfArraysType,
     counting,
     increased_twice,
     paired,
@@ -92,6 +94,18 @@ def test_borrowed_arrays_live_as_long_as_their_structure():
     assert sum_of_pair(pair) == sum_of_twice(np.array((1.0, 2.0))) + 10.0
     del pair
     assert watched() is None
+
+
+def test_the_name_of_a_structure_is_short_and_tells_its_fields():
+    """It is a part of the name of each function that takes the structure."""
+
+    def of(fields):
+        record = from_dtype(np.dtype([(f"field_{k}", "f8") for k in range(fields)]))
+        return PairOfArraysType([("first", types.Array(record, 1, "C")), ("both", types.int64)])
+
+    assert of(200) == of(200) != of(201)
+    assert of(200).name != of(201).name
+    assert len(of(200).name) < 50 < len(str(of(200).field_dict["first"]))
 
 
 def test_a_kernel_is_pickled_and_copied_by_its_name():

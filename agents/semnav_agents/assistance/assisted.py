@@ -109,7 +109,7 @@ class Assisted:
         """What replaces an action, after the scan has been taken in."""
         pose, velocity = read_odometry(observation)
         moving = self._perception.moving(0, pose, observation["scan"])
-        obstacles = with_felt_walls(self._perception.obstacles[0], observation, pose)
+        obstacles = with_felt_walls(self._perception.obstacles(0), observation, pose)
         doors = _rows(observation, "remembered_doors")
         action = wanted
         if self._doors:

@@ -7,8 +7,9 @@ from typing import NamedTuple
 
 from semnav_agents.planning.connect import wrapped
 from semnav_agents.planning.motion import move_at, moved
-from semnav_features.frames import FloatArray, Pose
+from semnav_features.frames import FloatArray, Pose, wrap_angle
 from semnav_features.kernels.compiling import kernel
+from semnav_features.kernels.exact_hypot import exact_hypot
 
 
 class Aim(NamedTuple):
@@ -31,6 +32,23 @@ class Aim(NamedTuple):
     heading_tolerance: float
     any_heading: bool
     axle: float
+
+
+@kernel
+def is_outdated(planned: Aim, wanted: Aim) -> bool:
+    """Whether a path to one aim may end where another one is not reached.
+
+    The aims lie apart by more than half a tolerance, or the second one asks for more: a lookout
+    point may become the place at which to stop.
+    """
+    away = exact_hypot(planned.x - wanted.x, planned.y - wanted.y)
+    near = wanted.position_tolerance
+    if away > 0.5 * near or near < planned.position_tolerance:
+        return True
+    if wanted.any_heading:
+        return False
+    turned = abs(wrap_angle(planned.heading - wanted.heading))
+    return planned.any_heading or turned > 0.5 * wanted.heading_tolerance
 
 
 @kernel

@@ -8,32 +8,42 @@ nothing, and Python decides: it reads the record first (`Pilot.take`) and writes
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
+from semnav_agents.planning.aim import Aim
 from semnav_agents.planning.planner import DriveTarget
 from semnav_agents.planning.track import FollowerLimits, PathTrack
+from semnav_env.mind.observations.layout import GOAL, GOAL_KINDS, ODOMETRY
 from semnav_env.robots import RobotSpec
 
 MAX_SAMPLES, MAX_LEGS = 2048, 256
 """Room for a path in a record: 80 m, at 4 cm a sample. A robot with a longer path never cruises."""
 
-CHANGING_COUNTS = "step", "wait", "around", "backing", "yielded", "refusals"
-"""Counters of a `Driver` that change while the robot cruises."""
+ODOMETRY_ROW = np.dtype([(name, "f4") for name in ODOMETRY.columns])
+"""The "odometry" entry of an observation."""
+
+GOAL_ROW = np.dtype(
+    [("kinds", "f4", len(GOAL_KINDS))] + [(name, "f4") for name in GOAL.columns[len(GOAL_KINDS) :]]
+)
+"""The "goal" entry of an observation."""
 
 CRUISE_COUNTS = np.dtype(
     [
         (name, "i8")
         for name in (
-            *("ready", *CHANGING_COUNTS, "leg", "sample", "pushed"),
+            *("ready", "step", "wait", "around", "backing", "yielded", "refusals"),
+            *("leg", "sample", "pushed"),
             *("pace", "heeds_barriers", "backing_out", "knows_door", "aims_at_pose", "tries_ways"),
         )
     ]
 )
-"""Whether the robot cruises at all; then counters and flags of its `Driver`, `Pilot` and
-`ExitViaDoor`, by the names that they have there."""
+"""Whether the robot cruises at all; then counters, which change while it does, and flags of its
+`Driver`, `Pilot` and `ExitViaDoor`, by the names that they have there."""
+
+CRUISE_TARGET = np.dtype([(name, "i8" if name == "any_heading" else "f8") for name in Aim._fields])
+"""A target, as `Aim`."""
 
 BODY = (
     *("length", "width", "axle", "max_speed", "max_sideways_speed", "max_turn_rate"),
@@ -54,11 +64,11 @@ CRUISE = np.dtype(
         ("limits", CRUISE_LIMITS),
         ("last", "f8", 3),
         ("shift", "f8", 3),
-        ("target", "f8", 5),
+        ("target", CRUISE_TARGET),
         ("door", "f8", 5),
         ("end", "f8", 2),
         ("complete", "i8"),
-        ("path_length", "f8"),
+        ("travel", "f8"),
         ("margin", "f8"),
         ("samples", "i8"),
         ("leg_count", "i8"),
@@ -75,8 +85,7 @@ CRUISE = np.dtype(
 """A cruising robot; shape (1,).
 
 `last` are the last velocities, `shift` is the pose
-of the path's frame, metres and radians. `target` is where the path leads: x, y, heading, and the
-tolerances of position and heading, the latter NaN where any heading will do. `door` is the middle
+of the path's frame, metres and radians. `target` is where the path leads. `door` is the middle
 of the door that is passed, and the pose that is aimed at, in the frame of the door. The rest is the
 path: its end, whether it leads to the target, its length, the margin that it keeps, and its samples
 and legs as in `TrackArrays`; `centres` are the poses of the robot's centre there, `clearance` is
@@ -91,13 +100,11 @@ def fits(track: PathTrack) -> bool:
 
 def put_path(record: Any, track: PathTrack, target: DriveTarget) -> None:
     """Write a path and the target to which it leads."""
-    path, arrays, turned = track.path, track.arrays, target.heading_tolerance
-    m = len(arrays.distance)
-    tolerances = target.position_tolerance, math.nan if turned is None else turned
-    record["target"] = *target.pose, *tolerances
+    path, arrays, m = track.path, track.arrays, len(track.distance)
+    record["target"] = tuple(target.aim(track.robot))
     record["limits"] = tuple(track.limits)
     record["complete"], record["margin"] = path.complete, path.margin
-    record["path_length"], record["end"] = path.length, path.end[:2]
+    record["travel"], record["end"] = path.length, path.end[:2]
     record["samples"], record["leg_count"] = m, len(arrays.legs)
     record["legs"][: len(arrays.legs)] = arrays.legs
     record["poses"][:m], record["centres"][:m] = arrays.poses, path.poses

@@ -8,16 +8,19 @@ import numpy as np
 
 from semnav_agents.planning.obstacles import point_counts, points_of_segments
 from semnav_agents.planning.planner import DriveTarget
+from semnav_env.approach.door_side import MIN_DOOR_WIDTH
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import (
     FloatArray,
     Point,
     Pose,
     heading_between,
+    middle_of,
     points_to_parent,
     to_local,
     wrap_angle,
 )
+from semnav_features.kernels.compiling import kernel
 from semnav_features.scene import Door
 
 DOORWAY_DISTANCE = 0.1
@@ -83,13 +86,18 @@ def target_behind(door: Door, approach: Point) -> DriveTarget:
     Raises:
         ValueError: the jambs are the same point.
     """
-    if door.width < 1e-6:
+    if door.width < MIN_DOOR_WIDTH:
         raise ValueError(f"the door at {door.start} has no width; its jambs must be two points")
-    heading = heading_between(door.start, door.end) + math.pi / 2
-    x, y = door.midpoint
+    behind = pose_behind(door.start, door.end, approach)
+    return DriveTarget(behind, THROUGH_TOLERANCE, None, gate=(door.start, door.end))
+
+
+@kernel
+def pose_behind(start: Point, end: Point, approach: Point) -> Pose:
+    """The pose `THROUGH_DISTANCE` behind a door, heading away from where the robot comes from."""
+    heading = heading_between(start, end) + math.pi / 2
+    x, y = middle_of(start, end)
     c, s = math.cos(heading), math.sin(heading)
     if (approach[0] - x) * c + (approach[1] - y) * s > 0:  # that axis heads back to the robot
         heading, c, s = wrap_angle(heading + math.pi), -c, -s
-    heading = wrap_angle(heading)
-    behind = x + THROUGH_DISTANCE * c, y + THROUGH_DISTANCE * s, heading
-    return DriveTarget(behind, THROUGH_TOLERANCE, None, gate=(door.start, door.end))
+    return x + THROUGH_DISTANCE * c, y + THROUGH_DISTANCE * s, wrap_angle(heading)

@@ -8,71 +8,39 @@ from typing import Any
 
 import numpy as np
 
-from semnav_agents.planning.cruise import CHANGING_COUNTS, fits, put_body, put_path
-from semnav_agents.planning.doorway import room_behind
+from semnav_agents.planning.aim import is_outdated
+from semnav_agents.planning.barriers import BarrierPlanner
+from semnav_agents.planning.cruise import fits, put_body, put_path
 from semnav_agents.planning.follower import PathProgress, Steering, follow
 from semnav_agents.planning.free import points_around
-from semnav_agents.planning.guard import SPEED_SHARES, safe_share
-from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
-from semnav_agents.planning.nudge import best_nudge, path_clearance, path_clearances
+from semnav_agents.planning.guard import GUARD_REACH, SPEED_SHARES, GuardedBody, safe_share
+from semnav_agents.planning.known_obstacles import (
+    NO_POINTS,
+    JoinedObstacles,
+    Obstacles,
+    as_obstacles,
+)
 from semnav_agents.planning.path import PlannedPath, joined
-from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free, plan
+from semnav_agents.planning.path_ahead import PathAhead, is_nearly_driven, poses_ahead, stays_free
+from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free
 from semnav_agents.planning.track import FollowerSettings, PathTrack
+from semnav_agents.planning.yielding import BACKING_SPEED, Yielding, yield_distance
 from semnav_env.language.clauses import Speed
 from semnav_env.mind.observations.pace_entry import PACES
 from semnav_env.robots import RobotSpec
-from semnav_features.frames import (
-    ORIGIN,
-    FloatArray,
-    Pose,
-    Twist,
-    compose,
-    points_to_parent,
-    relative,
-    wrap_angle,
-)
-
-NO_POINTS: FloatArray = np.empty((0, 2))
-"""No obstacle points, shape (0, 2)."""
+from semnav_features.frames import ORIGIN, FloatArray, Pose, Twist, relative
 
 STANDSTILL = Steering(0.0, 0.0, 0.0, PathProgress())
 """Velocity zero: stand still, or brake."""
 
-REPLAN_SHARE = 0.3
-"""Share of a partial path that is left when it is planned again; for long paths, one metre is left.
-Most of the path must have been driven: from the same place the same path would be found again."""
-
-NUDGED_LENGTH, CHECKED_LENGTH = 1.2, 2.5
-"""Length of the path ahead that is corrected, and that must be free, metres."""
+NO_POSES: FloatArray = np.empty((0, 3))
 
 LOOKAHEAD = 4.0
 """Distance beyond which obstacles do not matter to the next metres of a path, metres."""
 
-YIELD_CLEARANCE = 0.2
-"""Clearance from what moves below which a robot waits, metres."""
-
-YIELD_APPROACH = 0.02
-"""A robot waits only where it would come nearer than it is by this much, metres."""
-
-YIELD_DISTANCE, YIELD_SECONDS = 0.5, 1.2
-"""What moves matters on the path up to this distance, and up to what is driven in this time, metres
-and seconds."""
-
-GATE_DETOUR = 6.0
-"""Length by which a path around barriers to a gate may exceed what `detour` allows, metres: the
-robot may have to turn in the hallway first. A longer one leads through what has not been seen."""
-
 EVASION_LENGTH = 1.5
 """Length by which a path around what moves may exceed what `detour` allows, metres: the robot may
 have to get clear first."""
-
-JAM_STEPS, STANDING_SPEED = 90, 0.05
-"""Steps of standing before what moves after which a robot backs off, and the speed below which it
-stands, m/s and rad/s: somebody who stands before it for six seconds cannot go on either."""
-
-BACKING_SPEED, BACKING_STEPS = 0.2, 22
-"""Speed of backing off, m/s, and its duration in steps: slow, because the lidar sees little
-behind."""
 
 
 @dataclass
@@ -108,6 +76,9 @@ class Driver:
 
     def __post_init__(self) -> None:
         self._pace: Speed | None = None
+        self._body = GuardedBody.of(self.robot)
+        self._yielding = Yielding(self.robot, self.patience)
+        self._barriers = BarrierPlanner(self.robot, self.detour, self.patience, self.retry_after)
         self.reset()
 
     def reset(self) -> None:
@@ -122,8 +93,8 @@ class Driver:
         self._step = self._wait = 0
         self._braking = False
         self._refusals = 0
-        self._heeds_barriers = False
-        self._yielded = self._around = self._barred = self._held = self._backing = 0
+        self._yielding.reset()
+        self._barriers.reset()
 
     def put(self, record: Any) -> None:
         """Write what compiled code must know to drive on, see `cruise.CRUISE`."""
@@ -131,8 +102,11 @@ class Driver:
         counts["ready"] = track is not None and not self._braking and fits(track)
         if not counts["ready"] or track is None or self._target is None:
             return
-        for name in (*CHANGING_COUNTS, "heeds_barriers"):
-            counts[name] = getattr(self, f"_{name}")
+        waiting = self._yielding
+        counts["step"], counts["wait"], counts["refusals"] = self._step, self._wait, self._refusals
+        counts["around"], counts["backing"] = waiting.around, waiting.backing
+        counts["yielded"] = waiting.yielded
+        counts["heeds_barriers"] = self._barriers.heeds_barriers
         counts["pace"] = PACES.index(self._pace)
         counts["leg"], counts["sample"] = self._progress.leg, self._progress.sample
         record["shift"] = self._shift
@@ -144,8 +118,10 @@ class Driver:
     def take(self, record: Any) -> None:
         """Read what compiled code has changed."""
         counts = record["counts"]
-        for name in CHANGING_COUNTS:
-            setattr(self, f"_{name}", int(counts[name]))
+        self._step, self._wait = int(counts["step"]), int(counts["wait"])
+        self._refusals, waiting = int(counts["refusals"]), self._yielding
+        waiting.around, waiting.backing = int(counts["around"]), int(counts["backing"])
+        waiting.yielded = int(counts["yielded"])
         self._progress = PathProgress(int(counts["leg"]), int(counts["sample"]))
         x, y, heading = record["shift"].tolist()
         self._shift = x, y, heading
@@ -186,13 +162,12 @@ class Driver:
         """
         self._step += 1
         self._wait -= 1
-        self._around -= 1
-        self._backing -= 1
+        self._yielding.count_step()
         standing = obstacles = as_obstacles(points)
         barriers = as_obstacles(barriers)
-        if self._around > 0:
+        if self._yielding.around > 0:
             obstacles = JoinedObstacles((standing, as_obstacles(moving)))
-        if self._backing > 0:
+        if self._yielding.backing > 0:
             return self._back_off(standing, moving, pose, velocity)
         self._braking = self._braking and max(map(abs, velocity)) > 0.05
         if self._braking:
@@ -201,48 +176,39 @@ class Driver:
             if self._wait > 0:
                 return STANDSTILL
             self._plan(obstacles.points(), target, pose, velocity, barriers.points())
-            if self._around > 0 and not self._leads_around(target, barriers.points()):
-                self._around = 0
+            if self._yielding.around > 0 and not self._leads_around(target, barriers.points()):
+                self._yielding.around = 0
                 self._plan(standing.points(), target, pose, velocity, barriers.points())
         assert self._track is not None
-        if self._around <= 0 and self._yields(moving, pose, velocity):
+        if self._yielding.around <= 0 and self._yields(moving, pose, velocity):
             return self._hold(velocity)
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
         if steering.deviation > self.follower.lost:
             return self._stop()
-        near = points_around(pose, moving, 1.5 * self.robot.length)
-        if safe_share(near, steering.twist, velocity, self.robot) == 0.0:
+        near = points_around(pose, moving, GUARD_REACH * self.robot.length)
+        if safe_share(near, steering.twist, velocity, self._body) == 0.0:
             return self._hold(velocity)  # it is no noise, so that the robot never insists
         return self._guarded(obstacles, pose, velocity, steering)
 
     def _yields(self, moving: FloatArray, pose: Pose, velocity: Twist) -> bool:
-        """Whether to wait for what moves on the next stretch of the path, nearer than it is now.
+        """Whether to wait for what moves.
 
         What is still there after `patience` steps is planned around for as long, if there is a
         short way.
         """
-        distance = YIELD_DISTANCE + YIELD_SECONDS * math.hypot(velocity[0], velocity[1])
+        distance = yield_distance(velocity)
         near = points_around(pose, moving, distance + self.robot.length)
-        if not len(near):
-            self._yielded = max(self._yielded - 1, 0)
+        frame, path = relative(pose, self._shift), self._ahead()
+        ahead = poses_ahead(path, frame, distance) if len(near) else NO_POSES
+        if not self._yielding.must_wait(near, ahead):
             return False
-        ahead, size = self._ahead(pose, distance), (self.robot.length, self.robot.width)
-        now = path_clearance(near, np.zeros((1, 3)), *size, 0.0, 0.0, -math.inf)
-        enough = min(YIELD_CLEARANCE, now - YIELD_APPROACH)
-        if path_clearance(near, ahead, *size, 0.0, 0.0, enough) >= enough:
-            self._yielded = max(self._yielded - 1, 0)
-            return False
-        self._yielded += 1
-        if self._yielded > self.patience:
-            self._yielded, self._around, self._track = 0, self.patience, None
+        if self._yielding.loses_patience():
+            self._track = None
         return True
 
     def _hold(self, velocity: Twist) -> Steering:
-        """Stand still before what moves; after `JAM_STEPS` of it, back off next."""
-        self._held = self._held + 1 if max(map(abs, velocity)) < STANDING_SPEED else 0
-        if self._held > JAM_STEPS:
-            self._held, self._backing = 0, BACKING_STEPS
+        self._yielding.hold(velocity)
         return STANDSTILL
 
     def _back_off(
@@ -250,10 +216,10 @@ class Driver:
     ) -> Steering:
         """Make room: slowly straight backwards, as far as nothing is seen there."""
         self._track = None
-        reach = 1.5 * self.robot.length
+        reach = GUARD_REACH * self.robot.length
         seen = np.vstack((standing.near(pose, reach), points_around(pose, moving, reach)))
         back = Steering(-BACKING_SPEED, 0.0, 0.0, PathProgress())
-        return back if safe_share(seen, back.twist, velocity, self.robot) == 1.0 else STANDSTILL
+        return back if safe_share(seen, back.twist, velocity, self._body) == 1.0 else STANDSTILL
 
     def _stop(self) -> Steering:
         """Brake, and plan again from standstill."""
@@ -272,8 +238,8 @@ class Driver:
         After `insist_after` refusals in a row it is allowed slowly, because the obstacle may be
         noise.
         """
-        seen = obstacles.near(pose, 1.5 * self.robot.length)
-        share = safe_share(seen, steering.twist, velocity, self.robot)
+        seen = obstacles.near(pose, GUARD_REACH * self.robot.length)
+        share = safe_share(seen, steering.twist, velocity, self._body)
         if share == 0.0:
             self._refusals += 1
             if self._refusals <= self.insist_after:
@@ -290,16 +256,17 @@ class Driver:
     ) -> bool:
         if self._track is None or self._target is None or self.path is None:
             return True
-        if _apart(self._target, target) or _asks_for_more(self._target, target):
+        if is_outdated(self._target.aim(self.robot), target.aim(self.robot)):
             return True
-        if not self.path.complete and self._remaining() <= min(
-            1.0, REPLAN_SHARE * self.path.length
-        ):
+        if not self.path.complete and is_nearly_driven(self._ahead()):
             return True
         if self._step % self.check_every:
             return False
-        solid = JoinedObstacles((obstacles, barriers)) if self._heeds_barriers else obstacles
-        return not self._stays_free(solid, pose)
+        heeded = (obstacles, barriers) if self._barriers.heeds_barriers else (obstacles,)
+        seen = JoinedObstacles(heeded).near(pose, LOOKAHEAD)
+        told = self._shift, pose, self.tolerance
+        free, self._shift = stays_free(self._ahead(), seen, *told)
+        return not free
 
     def _plan(
         self,
@@ -312,7 +279,7 @@ class Driver:
         """Plan from the robot's pose; while it drives, from where it can stop on its path."""
         kept = self._path_to_stop(points, pose, velocity)
         start = pose if kept is None else kept.end
-        self.path = self._path_around(points, start, target, barriers)
+        self.path = self._barriers.path(points, start, target, barriers, self.planner)
         if kept is not None:
             self.path = joined(kept, self.path)
         self.plans += 1
@@ -320,49 +287,6 @@ class Driver:
         self._track = self._track_of(self.path)
         if not self.path.complete:
             self._wait = self.retry_after
-
-    def _path_around(
-        self, points: FloatArray, start: Pose, target: DriveTarget, barriers: FloatArray
-    ) -> PlannedPath:
-        """A path through the target's gate, if it has one, and through no barrier.
-
-        The first of these is taken that leads right: among the points alone; around barriers and
-        the walls beside the gate; and, where the first misses the gate, around those walls alone,
-        for a barrier may be no door. A way around barriers must be no longer than `detour` allows,
-        to a gate by `GATE_DETOUR` longer; without a gate the robot waits for such a way before it
-        takes the first.
-        """
-        path = plan(points, start, target, self.robot, self.planner)
-        beside = NO_POINTS if target.gate is None else room_behind(target.gate, target.pose)
-        closed = np.vstack((barriers, beside))
-        self._heeds_barriers = False
-        if self._heads_right(path, target, closed):
-            self._barred = 0
-            return path
-        longest = self.detour * path.length + (GATE_DETOUR if target.gate is not None else 0.0)
-        around = plan(np.vstack((points, closed)), start, target, self.robot, self.planner)
-        if self._leads(around, target, barriers) and around.length < longest:
-            self._heeds_barriers = True
-            return around
-        if len(barriers) and not self._heads_right(path, target, NO_POINTS):
-            around = plan(np.vstack((points, beside)), start, target, self.robot, self.planner)
-            if self._leads(around, target, NO_POINTS):
-                return around
-        if target.gate is None and not around.complete and self._barred < self.patience:
-            self._barred += self.retry_after
-            self._heeds_barriers = True
-            return around
-        return path
-
-    def _leads(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
-        """Whether a path leads to the target through its gate and through no barrier."""
-        return path.complete and self._heads_right(path, target, barriers)
-
-    def _heads_right(self, path: PlannedPath, target: DriveTarget, barriers: FloatArray) -> bool:
-        """Whether a path crosses no barrier, and the target's gate if it has one."""
-        if target.gate is not None and not path.crosses(*target.gate):
-            return False
-        return is_free(barriers, path.poses, self.robot)
 
     def _leads_around(self, target: DriveTarget, barriers: FloatArray) -> bool:
         """Whether the path leads to the target by a short way and through no barrier.
@@ -389,48 +313,7 @@ class Driver:
         kept = self.path.part(first, last, self._shift)
         return kept if is_free(points, kept.poses, self.robot) else None
 
-    def _remaining(self) -> float:
+    def _ahead(self) -> PathAhead:
+        """The path that is being driven, as kernels take it."""
         assert self._track is not None
-        return float(self._track.distance[-1] - self._track.distance[self._progress.sample])
-
-    def _stays_free(self, obstacles: Obstacles, pose: Pose) -> bool:
-        """Whether the next metres of the path are free, after a small correction if need be."""
-        assert self.path is not None
-        seen, margin = obstacles.near(pose, LOOKAHEAD), self.path.margin
-        size = (self.robot.length, self.robot.width)
-        left, turn, _ = best_nudge(seen, self._ahead(pose, NUDGED_LENGTH), *size, margin + 0.005)
-        if left or turn:
-            shift = compose((0.0, left, turn), relative(pose, self._shift))
-            self._shift = compose(pose, shift)
-        planned = self.path.clearance[self._samples_ahead(CHECKED_LENGTH)]
-        now = path_clearances(seen, self._ahead(pose, CHECKED_LENGTH), *size, margin)
-        return bool((now > np.minimum(planned, margin) - self.tolerance).all())
-
-    def _samples_ahead(self, distance: float) -> slice:
-        assert self._track is not None
-        along, first = self._track.distance, self._progress.sample
-        return slice(first, int(np.searchsorted(along, along[first] + distance)) + 1, 2)
-
-    def _ahead(self, pose: Pose, distance: float) -> FloatArray:
-        """The centre's poses on the path ahead, about 0.1 m apart, in the robot frame, (M, 3)."""
-        assert self.path is not None
-        poses = self.path.poses[self._samples_ahead(distance)]
-        frame = relative(pose, self._shift)
-        places = points_to_parent(frame, poses[:, :2])
-        return np.column_stack((places, poses[:, 2] + frame[2]))
-
-
-def _apart(a: DriveTarget, b: DriveTarget) -> bool:
-    """Whether the targets differ by more than half a tolerance."""
-    turned = abs(wrap_angle(a.pose[2] - b.pose[2]))
-    heading_matters = b.heading_tolerance is not None and turned > 0.5 * b.heading_tolerance
-    return math.dist(a.pose[:2], b.pose[:2]) > 0.5 * b.position_tolerance or heading_matters
-
-
-def _asks_for_more(a: DriveTarget, b: DriveTarget) -> bool:
-    """Whether a path to the first target may end where the second is not reached yet.
-
-    This happens when a lookout point becomes the place at which to stop.
-    """
-    heading = a.heading_tolerance is None and b.heading_tolerance is not None
-    return heading or b.position_tolerance < a.position_tolerance
+        return self._track.ahead(self._progress.sample)

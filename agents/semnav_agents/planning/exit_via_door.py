@@ -10,27 +10,21 @@ from typing import Any
 
 import numpy as np
 
-from semnav_agents.planning.doorway import target_behind
+from semnav_agents.planning.door_aims import (
+    MAX_OBSTACLE_DISTANCE,
+    aim_through,
+    ends_at_door,
+    is_same_door,
+)
 from semnav_agents.planning.known_obstacles import Obstacles, as_obstacles
 from semnav_agents.planning.planner import DriveTarget
 from semnav_env.approach import DoorSide, Surroundings, plan_approach
 from semnav_env.approach.poses import is_behind
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import ORIGIN, FloatArray, Point, Pose, compose, relative
-from semnav_features.scene import Door
-
-POSE_TOLERANCE, POSE_HEADING_TOLERANCE = 0.10, 0.15
-"""Distance and heading error at which a pose before or behind a door is reached, metres and
-radians."""
 
 POSES_TRIED = 6
 """Largest number of poses that are tried on either side of a door."""
-
-SAME_DOOR_DISTANCE = 0.5
-"""Distance of their middles below which two doors are the same, metres."""
-
-MAX_OBSTACLE_DISTANCE = 2.5
-"""Distance from the middle of a door within which obstacles matter to the poses, metres."""
 
 POINT_RADIUS = 0.03
 """Radius of an obstacle point, metres: remembered ones are 5 cm apart."""
@@ -68,18 +62,16 @@ class ExitViaDoor:
         """The present target.
 
         Args:
-            side: the door and the side from which it is passed, in any frame; a door within
-                `SAME_DOOR_DISTANCE` of the last one is the same, better seen.
+            side: the door and the side from which it is passed, in any frame; a door that
+                `is_same_door` as the last one is that one, better seen.
         """
-        if not math.dist(self._middle, side.middle) <= SAME_DOOR_DISTANCE:
+        if not is_same_door(self._middle, side.middle):
             self._ways, self._way, self._pause = iter(()), (None,), 0
         self._door, self._middle = side, side.middle
         pose, last = self._way[0], len(self._way) == 1
-        if pose is None:
-            return target_behind(Door(side.right, side.left), _in_front(side))
-        place, gate = compose(side.frame, pose), (side.right, side.left)
-        tolerances = POSE_TOLERANCE, POSE_HEADING_TOLERANCE
-        return DriveTarget(place, *tolerances, gate=gate if last else None)
+        jambs, has_pose = (side.right, side.left), pose is not None
+        aim = aim_through(*jambs, has_pose, pose or ORIGIN, float(self.robot.axle))
+        return DriveTarget.of(aim, None if has_pose and not last else jambs)
 
     def put(self, record: Any) -> None:
         """Write what compiled code needs to know, see `cruise.CRUISE`."""
@@ -101,14 +93,13 @@ class ExitViaDoor:
     def failed(self, points: FloatArray | Obstacles, end: Pose) -> bool:
         """Give up the target, and choose the next way; returns whether there is one.
 
-        A path that ends far from the door still leads nearer to it, and is driven.
-
         Args:
             points: obstacles, or their points, shape (n, 2), in the frame of the door.
             end: where the path to the target ends before it, in that frame.
         """
-        far = self._door is None or math.dist(end[:2], self._door.middle) > MAX_OBSTACLE_DISTANCE
-        if self._door is None or far or not self.alternatives:
+        if self._door is None or not self.alternatives:
+            return False
+        if not ends_at_door(end[:2], self._door.middle):
             return False
         way = next(self._ways, None)
         if way is None and self._pause == 0:
@@ -151,8 +142,3 @@ def _both(side: DoorSide, pose: Pose) -> tuple[Pose, Pose]:
     """A pose behind the door for leaving forwards, and the turned pose for leaving backwards."""
     local = relative(side.frame, pose)
     return compose(local, (0.0, 0.0, math.pi)), local
-
-
-def _in_front(side: DoorSide) -> tuple[float, float]:
-    x, y = side.before(np.array([(1.0, 0.0)]))[0].tolist()
-    return x, y

@@ -66,18 +66,18 @@ def follow(track: PathTrack, progress: PathProgress, pose: Pose, velocity: Twist
         pose: the centre's pose, in the path's frame.
         velocity: the centre's velocity now.
     """
-    axle = compose(pose, (track.robot.axle, 0.0, 0.0))
     leg, sample, forward, left, turn, off, done = steer(
-        track.arrays, track.limits, progress.leg, progress.sample, axle, velocity
+        track.arrays, track.limits, progress.leg, progress.sample, pose, velocity
     )
     return Steering(forward, left, turn, PathProgress(leg, sample), off, done)
 
 
 @kernel
 def steer(
-    track: TrackArrays, s: FollowerLimits, leg: int, sample: int, axle: Pose, velocity: Twist
+    track: TrackArrays, s: FollowerLimits, leg: int, sample: int, pose: Pose, velocity: Twist
 ) -> tuple[int, int, float, float, float, float, bool]:
     """See `follow`: leg and sample of the progress, the velocities, the deviation, and done."""
+    axle = compose(pose, (s.axle, 0.0, 0.0))
     while leg < len(track.legs):
         here = PathLeg(track.legs[leg, 0], track.legs[leg, 1], track.legs[leg, 2])
         if here.kind == TURN:

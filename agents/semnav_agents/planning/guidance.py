@@ -104,7 +104,7 @@ def _sources(
         return np.array([(j, i)]), np.zeros(1)
     edge = np.zeros((n, n), dtype=bool)
     edge[[1, -2], 1:-1] = edge[1:-1, [1, -2]] = True
-    cells = np.argwhere(edge & (room >= 0))
+    cells = np.ascontiguousarray(np.argwhere(edge & (room >= 0)))
     x, y = field.x + (cells[:, 1] + 0.5) * COARSE_CELL, field.y + (cells[:, 0] + 0.5) * COARSE_CELL
     return cells, np.hypot(x - target[0], y - target[1]) / costs.speed
 

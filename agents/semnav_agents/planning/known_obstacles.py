@@ -15,6 +15,9 @@ import numpy as np
 from semnav_agents.planning.free import points_around
 from semnav_features.frames import FloatArray, Pose
 
+NO_POINTS: FloatArray = np.empty((0, 2))
+"""No obstacle points, shape (0, 2)."""
+
 
 class Obstacles(Protocol):
     """Obstacle points in one frame."""

@@ -91,7 +91,6 @@ class ObstacleMemory:
     ) -> None:
         self.settings = settings or MemorySettings()
         self._state, self._centres, self._table = arrays or memory_arrays(1, self.settings)
-        self.reset()
 
     def reset(self) -> None:
         """Forget everything."""

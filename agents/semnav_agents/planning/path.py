@@ -73,7 +73,7 @@ class PlannedPath:
         """Index of the move from each sample to the next, shape (M - 1,)."""
         return self._samples[2]
 
-    @property
+    @cached_property
     def length(self) -> float:
         """Distance that the axle travels, metres."""
         return float(np.hypot(self.moves[:, 0], self.moves[:, 1]).sum())

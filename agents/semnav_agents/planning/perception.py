@@ -37,27 +37,18 @@ class Perception:
 
     Args:
         robots: how many there are.
-
-    Attributes:
-        obstacles: what stands around each robot, odometry frame.
     """
 
     def __init__(self, robots: int) -> None:
-        settings = MemorySettings()
+        self._settings = MemorySettings()
         self._perceivers = np.zeros(robots, PERCEIVER)
-        self._memory, self._limits = memory_arrays(robots, settings), settings.limits
-        self._selection = settings.selection
-        state, centres, table = self._memory
-        self.obstacles = [
-            ObstacleMemory(settings, (state[k : k + 1], centres[k : k + 1], table))
-            for k in range(robots)
-        ]
+        self._memory = memory_arrays(robots, self._settings)
         self._directions = np.empty((robots, 0, 2))
         self._moving = np.zeros((robots, 0), np.bool_)
 
     def reset(self, index: int, mount: Pose, lidar: LidarSpec) -> None:
         """Forget everything about a robot, and take its lidar."""
-        robots, beams = len(self.obstacles), lidar.directions
+        robots, beams = len(self._perceivers), lidar.directions
         if self._directions.shape[1] != len(beams):
             self._directions = np.zeros((robots, *beams.shape))
             self._moving = np.zeros((robots, len(beams)), np.bool_)
@@ -69,7 +60,16 @@ class Perception:
         perceiver[:] = 0
         perceiver["mount"], perceiver["start"], perceiver["step"] = mount, start, step
         perceiver["range_max"] = lidar.range_max
-        self.obstacles[index].reset()
+        self.obstacles(index).reset()
+
+    def obstacles(self, index: int) -> ObstacleMemory:
+        """What stands around a robot, odometry frame.
+
+        It is made anew for each call: in a copy of all this it would keep arrays of its own.
+        """
+        state, centres, table = self._memory
+        here = slice(index, index + 1)
+        return ObstacleMemory(self._settings, (state[here], centres[here], table))
 
     def update(
         self,
@@ -84,14 +84,13 @@ class Perception:
             scans: the same, shape (n, beams).
             driven: numbers of the robots that take part.
         """
-        told = self._perceivers, self._directions, *self._memory, self._limits
+        told = self._perceivers, self._directions, *self._memory, self._settings.limits
         perceive(odometry, scans, driven, *told, self._moving)
 
     @property
     def memory(self) -> tuple[Any, Any, Any, SelectionLimits]:
         """States, centres, table and what counts of them, for `obstacle_selection.select`."""
-        states, centres, table = self._memory
-        return states, centres, table, self._selection
+        return *self._memory, self._settings.selection
 
     @property
     def any_moving(self) -> NDArray[np.bool_]:

@@ -48,6 +48,17 @@ class DriveTarget:
     heading_tolerance: float | None = 0.10
     gate: tuple[Point, Point] | None = None
 
+    @staticmethod
+    def of(aim: Aim, gate: tuple[Point, Point] | None = None) -> DriveTarget:
+        """The target that kernels know as an aim."""
+        turned = None if aim.any_heading else aim.heading_tolerance
+        return DriveTarget((aim.x, aim.y, aim.heading), aim.position_tolerance, turned, gate)
+
+    def aim(self, robot: RobotSpec) -> Aim:
+        """The target as kernels know it."""
+        near, turned = float(self.position_tolerance), self.heading_tolerance
+        return Aim(*self.pose, near, float(turned or 0.0), turned is None, float(robot.axle))
+
 
 Price: TypeAlias = Annotated[float, Bounds(0.0, 1000.0)]
 Effort: TypeAlias = tuple[Annotated[float, Bounds(1.0, 100.0)], Count]
@@ -215,12 +226,10 @@ def _search(
 
 def _aim(target: DriveTarget, guidance: Guidance, robot: RobotSpec) -> Aim:
     """The target, or a region around the place that replaces it."""
+    if guidance.exact:
+        return target.aim(robot)
     x, y = guidance.place
-    if not guidance.exact:
-        return Aim(x, y, 0.0, max(0.3, target.position_tolerance), 0.0, True, robot.axle)
-    tolerance = target.heading_tolerance
-    near, free = target.position_tolerance, tolerance is None
-    return Aim(x, y, target.pose[2], near, tolerance or 0.0, free, robot.axle)
+    return Aim(x, y, 0.0, max(0.3, target.position_tolerance), 0.0, True, robot.axle)
 
 
 def _half_window(start: Pose, target: DriveTarget, settings: PlannerSettings) -> float:

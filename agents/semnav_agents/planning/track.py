@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from semnav_agents.planning.motion import REVERSE, TURN
 from semnav_agents.planning.path import PlannedPath
+from semnav_agents.planning.path_ahead import PathAhead
 from semnav_env.language.clauses import Speed
 from semnav_env.robots import RobotSpec
 from semnav_features.checked_fields import Bounds, check_fields
@@ -116,6 +117,7 @@ class FollowerLimits(NamedTuple):
         braking: deceleration with which stops are planned, m/s^2.
         turn_braking: the same of turns on the spot, rad/s^2.
         max_acceleration: of the robot, m/s^2.
+        axle: x of the robot's axle in its frame, metres.
         holonomic: whether the robot can move sideways.
     """
 
@@ -131,6 +133,7 @@ class FollowerLimits(NamedTuple):
     braking: float
     turn_braking: float
     max_acceleration: float
+    axle: float
     holonomic: bool
 
 
@@ -207,8 +210,16 @@ class PathTrack:
             braking=float(s.braking * robot.max_acceleration),
             turn_braking=float(s.braking * robot.max_turn_acceleration),
             max_acceleration=float(robot.max_acceleration),
+            axle=float(robot.axle),
             holonomic=bool(robot.holonomic),
         )
+
+    def ahead(self, sample: int) -> PathAhead:
+        """The path from a sample on."""
+        path, robot = self.path, self.robot
+        arrays, lengths = (path.poses, self.distance, path.clearance), (path.margin, path.length)
+        sizes = *lengths, robot.length, robot.width
+        return PathAhead(*arrays, sample, *map(float, sizes))
 
     @property
     def _kinds(self) -> NDArray[np.int64]:

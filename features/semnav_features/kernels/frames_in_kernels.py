@@ -10,9 +10,17 @@ from collections.abc import Callable
 
 from numba.extending import overload, register_jitable
 
-from semnav_features.frames import compose, relative, to_local, to_parent, wrap_angle
+from semnav_features.frames import (
+    compose,
+    heading_between,
+    middle_of,
+    relative,
+    to_local,
+    to_parent,
+    wrap_angle,
+)
 
-for _function in (to_parent, to_local, compose, relative):
+for _function in (to_parent, to_local, compose, relative, heading_between, middle_of):
     register_jitable(_function)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hashlib import sha256
 from typing import Any, TypeVar
 
 from numba import types
@@ -13,7 +14,15 @@ S = TypeVar("S", bound="Structure")
 
 
 class ArraysType(types.StructRef):
-    """Numba's type of a structure; its fields have general types, not those of literal values."""
+    """Numba's type of a structure; its fields have general types, not those of literal values.
+
+    It is named by a hash of its fields. Numba's own name spells out every field of every record,
+    up to a million characters, and is a part of the name of each function that takes the structure.
+    """
+
+    def __init__(self, fields: Any) -> None:
+        super().__init__(fields)
+        self.name = f"{self._typename}.{sha256(self.name.encode()).hexdigest()[:16]}"
 
     def preprocess_fields(self, fields: Any) -> Any:
         """The fields as numba is to see them."""

@@ -69,7 +69,7 @@ class Culling:
         Raises:
             ValueError: segments of another shape, or not finite.
         """
-        rows = np.ascontiguousarray(segments, dtype=np.float64)
+        rows = np.array(segments, np.float64, order="C")  # never read-only: kernels know one type
         if rows.ndim != 2 or rows.shape[1] != 4 or not np.isfinite(rows).all():
             raise ValueError(
                 f"segments of shape {rows.shape} must be finite and of shape (n, 4): x1, y1, x2, y2"

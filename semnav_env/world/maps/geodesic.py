@@ -98,10 +98,11 @@ class Geodesic:
         """Whether the robot's centre may be in each cell, shape (rows, columns)."""
         free, furniture = self._inside(), np.zeros(self.grid.shape, dtype=bool)
         reach = self._clearance - 1e-9  # what is exactly so far away is free
-        clear_near(free, self._floor_plan.segments, *self.grid.frame, reach)
+        solid = self._floor_plan.segments.copy()  # not read-only: kernels know one type
+        clear_near(free, solid, *self.grid.frame, reach)
         self._check_furniture()
-        solid = self._floor_plan.derived(SolidEdges.of)
-        mark_inside(furniture, solid.furniture, solid.pieces, *self.grid.frame)
+        edges = self._floor_plan.derived(SolidEdges.of)
+        mark_inside(furniture, edges.furniture, edges.pieces, *self.grid.frame)
         return free & ~furniture
 
     def _inside(self) -> NDArray[np.bool_]:

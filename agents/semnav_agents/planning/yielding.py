@@ -1,0 +1,95 @@
+"""Waiting for what moves, and making room for it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from semnav_agents.planning.nudge import path_clearance
+from semnav_env.robots import RobotSpec
+from semnav_features.frames import FloatArray, Twist
+
+YIELD_CLEARANCE = 0.2
+"""Clearance from what moves below which a robot waits, metres."""
+
+YIELD_APPROACH = 0.02
+"""A robot waits only where it would come nearer than it is by this much, metres."""
+
+YIELD_DISTANCE, YIELD_SECONDS = 0.5, 1.2
+"""What moves matters on the path up to this distance, and up to what is driven in this time, metres
+and seconds."""
+
+JAM_STEPS, STANDING_SPEED = 90, 0.05
+"""Steps of standing before what moves after which a robot backs off, and the speed below which it
+stands, m/s and rad/s: somebody who stands before it for six seconds cannot go on either."""
+
+BACKING_SPEED, BACKING_STEPS = 0.2, 22
+"""Speed of backing off, m/s, and its duration in steps: slow, because the lidar sees little
+behind."""
+
+
+@dataclass
+class Yielding:
+    """Decides when to wait for what moves, when to plan around it, and when to back off.
+
+    Attributes:
+        robot: gives the footprint.
+        patience: steps to wait before it is planned around, and for which it then counts as solid.
+        yielded: steps of waiting, less those without.
+        around: steps for which what moves still counts as solid; not above 0 if it does not.
+        held: steps of standing.
+        backing: steps for which the robot still backs off; not above 0 if it does not.
+    """
+
+    robot: RobotSpec
+    patience: int
+    yielded: int = field(default=0, init=False)
+    around: int = field(default=0, init=False)
+    held: int = field(default=0, init=False)
+    backing: int = field(default=0, init=False)
+
+    def reset(self) -> None:
+        """Begin anew."""
+        self.yielded = self.around = self.held = self.backing = 0
+
+    def count_step(self) -> None:
+        """A step has passed."""
+        self.around -= 1
+        self.backing -= 1
+
+    def must_wait(self, near: FloatArray, ahead: FloatArray) -> bool:
+        """Whether to wait for what moves on the next stretch of the path, nearer than it is now.
+
+        Args:
+            near: what moves around the robot, in its frame, shape (n, 2).
+            ahead: poses of the next stretch, the same frame, shape (m, 3).
+        """
+        size = self.robot.length, self.robot.width
+        if len(near):
+            now = path_clearance(near, np.zeros((1, 3)), *size, 0.0, 0.0, -math.inf)
+            enough = min(YIELD_CLEARANCE, now - YIELD_APPROACH)
+            if path_clearance(near, ahead, *size, 0.0, 0.0, enough) < enough:
+                self.yielded += 1
+                return True
+        self.yielded = max(self.yielded - 1, 0)
+        return False
+
+    def loses_patience(self) -> bool:
+        """Whether to plan around what is waited for, which is solid from here on for a while."""
+        if self.yielded <= self.patience:
+            return False
+        self.yielded, self.around = 0, self.patience
+        return True
+
+    def hold(self, velocity: Twist) -> None:
+        """Stand still before what moves; after `JAM_STEPS` of it, back off next."""
+        self.held = self.held + 1 if max(map(abs, velocity)) < STANDING_SPEED else 0
+        if self.held > JAM_STEPS:
+            self.held, self.backing = 0, BACKING_STEPS
+
+
+def yield_distance(velocity: Twist) -> float:
+    """Length of the path ahead on which what moves matters, metres."""
+    return YIELD_DISTANCE + YIELD_SECONDS * math.hypot(velocity[0], velocity[1])
