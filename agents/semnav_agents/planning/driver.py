@@ -66,9 +66,17 @@ EVASION_LENGTH = 1.5
 """Length by which a path around what moves may exceed what `detour` allows, metres: the robot may
 have to get clear first."""
 
-JAM_STEPS, STANDING_SPEED = 90, 0.05
-"""Steps of standing before what moves after which a robot backs off, and the speed below which it
-stands, m/s and rad/s: somebody who stands before it for six seconds cannot go on either."""
+JAM_STEPS, STANDING_SPEED = 75, 0.05
+"""Steps of standing before what moves after which a robot is in a jam, and the speed below which it
+stands, m/s and rad/s: somebody who stands before it for five seconds cannot go on either."""
+
+INSISTING_SHARE, INSISTING_STEPS = 0.15, 45
+"""Share of its velocity with which a robot creeps on in a jam, and for how many steps: people make
+room for it. In each second jam it backs off instead."""
+
+AMONG_PEOPLE_STEPS = 150
+"""Steps after something moved in view for which a robot among people goes through no door that is
+not its own, but waits: whoever stands in its way will go."""
 
 BACKING_SPEED, BACKING_STEPS = 0.2, 22
 """Speed of backing off, m/s, and its duration in steps: slow, because the lidar sees little
@@ -124,11 +132,14 @@ class Driver:
         self._refusals = 0
         self._heeds_barriers = False
         self._yielded = self._around = self._barred = self._held = self._backing = 0
+        self._jams = self._insisting = 0
+        self._met_at = -AMONG_PEOPLE_STEPS
 
     def put(self, record: Any) -> None:
         """Write what compiled code must know to drive on, see `cruise.CRUISE`."""
         counts, track = record["counts"], self._track
-        counts["ready"] = track is not None and not self._braking and fits(track)
+        follows = track is not None and not self._braking and self._insisting <= 0
+        counts["ready"] = follows and track is not None and fits(track)
         if not counts["ready"] or track is None or self._target is None:
             return
         for name in (*CHANGING_COUNTS, "heeds_barriers"):
@@ -188,6 +199,8 @@ class Driver:
         self._wait -= 1
         self._around -= 1
         self._backing -= 1
+        self._insisting -= 1
+        self._met_at = self._step if len(moving) else self._met_at
         standing = obstacles = as_obstacles(points)
         barriers = as_obstacles(barriers)
         if self._around > 0:
@@ -199,18 +212,22 @@ class Driver:
             return STANDSTILL
         if self._must_plan(obstacles, target, pose, barriers):
             if self._wait > 0:
-                return STANDSTILL
+                return self._hold(velocity) if self._is_among_people() else STANDSTILL
             self._plan(obstacles.points(), target, pose, velocity, barriers.points())
             if self._around > 0 and not self._leads_around(target, barriers.points()):
                 self._around = 0
                 self._plan(standing.points(), target, pose, velocity, barriers.points())
-        assert self._track is not None
-        if self._around <= 0 and self._yields(moving, pose, velocity):
+        if self._track is None:
+            return self._hold(velocity)
+        insists = self._insisting > 0
+        if not insists and self._around <= 0 and self._yields(moving, pose, velocity):
             return self._hold(velocity)
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
         if steering.deviation > self.follower.lost:
             return self._stop()
+        if insists and not steering.done:
+            steering = steering.slowed(INSISTING_SHARE)
         near = points_around(pose, moving, 1.5 * self.robot.length)
         if safe_share(near, steering.twist, velocity, self.robot) == 0.0:
             return self._hold(velocity)  # it is no noise, so that the robot never insists
@@ -238,11 +255,19 @@ class Driver:
             self._yielded, self._around, self._track = 0, self.patience, None
         return True
 
+    def _is_among_people(self) -> bool:
+        return self._step - self._met_at < AMONG_PEOPLE_STEPS
+
     def _hold(self, velocity: Twist) -> Steering:
-        """Stand still before what moves; after `JAM_STEPS` of it, back off next."""
+        """Stand still before what moves; after `JAM_STEPS` of it, creep on or back off next."""
         self._held = self._held + 1 if max(map(abs, velocity)) < STANDING_SPEED else 0
         if self._held > JAM_STEPS:
-            self._held, self._backing = 0, BACKING_STEPS
+            self._held = 0
+            self._jams += 1
+            if self._jams % 2 == 1:
+                self._insisting = INSISTING_STEPS
+            else:
+                self._backing = BACKING_STEPS
         return STANDSTILL
 
     def _back_off(
@@ -312,10 +337,12 @@ class Driver:
         """Plan from the robot's pose; while it drives, from where it can stop on its path."""
         kept = self._path_to_stop(points, pose, velocity)
         start = pose if kept is None else kept.end
-        self.path = self._path_around(points, start, target, barriers)
-        if kept is not None:
-            self.path = joined(kept, self.path)
         self.plans += 1
+        path = self._path_around(points, start, target, barriers)
+        if path is None:
+            self._track, self._wait = None, self.retry_after
+            return
+        self.path = path if kept is None else joined(kept, path)
         self._target, self._progress, self._shift = target, PathProgress(), ORIGIN
         self._track = self._track_of(self.path)
         if not self.path.complete:
@@ -323,14 +350,15 @@ class Driver:
 
     def _path_around(
         self, points: FloatArray, start: Pose, target: DriveTarget, barriers: FloatArray
-    ) -> PlannedPath:
+    ) -> PlannedPath | None:
         """A path through the target's gate, if it has one, and through no barrier.
 
         The first of these is taken that leads right: among the points alone; around barriers and
         the walls beside the gate; and, where the first misses the gate, around those walls alone,
         for a barrier may be no door. A way around barriers must be no longer than `detour` allows,
         to a gate by `GATE_DETOUR` longer; without a gate the robot waits for such a way before it
-        takes the first.
+        takes the first. Among people only a way around barriers is taken, or a part of it; None
+        where it is too long.
         """
         path = plan(points, start, target, self.robot, self.planner)
         beside = NO_POINTS if target.gate is None else room_behind(target.gate, target.pose)
@@ -344,6 +372,9 @@ class Driver:
         if self._leads(around, target, barriers) and around.length < longest:
             self._heeds_barriers = True
             return around
+        if self._is_among_people() and not is_free(barriers, path.poses, self.robot):
+            self._heeds_barriers = True
+            return None if around.complete else around
         if len(barriers) and not self._heads_right(path, target, NO_POINTS):
             around = plan(np.vstack((points, beside)), start, target, self.robot, self.planner)
             if self._leads(around, target, NO_POINTS):
@@ -365,12 +396,15 @@ class Driver:
         return is_free(barriers, path.poses, self.robot)
 
     def _leads_around(self, target: DriveTarget, barriers: FloatArray) -> bool:
-        """Whether the path leads to the target by a short way and through no barrier.
+        """Whether the path leads to the target by a short way, forward, and through no barrier.
 
-        A long way leads through what has not been seen yet, and so through doors.
+        A long way leads through what has not been seen yet, and so through doors. Backwards the
+        lidar sees little, and whoever walks behind the robot stands there when it stops.
         """
         path = self.path
         if path is None or not path.complete or not is_free(barriers, path.poses, self.robot):
+            return False
+        if path.backs:
             return False
         direct = math.dist(path.start[:2], target.pose[:2])
         return path.length < self.detour * direct + EVASION_LENGTH
