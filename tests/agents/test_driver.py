@@ -14,7 +14,13 @@ from semnav_agents.planning.guard import GuardedBody, safe_share
 from semnav_agents.planning.obstacles import points_of_segments
 from semnav_agents.planning.planner import DriveTarget, is_free, plan
 from semnav_agents.planning.track import PathTrack
-from semnav_agents.planning.yielding import BACKING_SPEED, JAM_STEPS
+from semnav_agents.planning.yielding import (
+    AMONG_PEOPLE_STEPS,
+    BACKING_SPEED,
+    INSISTING_SHARE,
+    INSISTING_STEPS,
+    JAM_STEPS,
+)
 from semnav_env.robots import SPOT, WHEELCHAIR
 from semnav_features.frames import points_to_local, to_parent
 from semnav_features.scene import Door
@@ -309,8 +315,38 @@ def test_a_robot_backs_off_from_who_does_not_go_away(robot):
     ):
         driver = Driver(robot)
         told = target, here, (0.0, 0.0, 0.0), NOTHING, moving
-        slowest = min(driver.drive(standing, *told).forward for _ in range(2 * JAM_STEPS))
-        assert slowest == expected
+        steps = 2 * JAM_STEPS + INSISTING_STEPS + 40
+        assert min(driver.drive(standing, *told).forward for _ in range(steps)) == expected
+
+
+@ROBOTS
+def test_a_robot_in_a_jam_creeps_on_before_it_backs_off(robot):
+    points, barrier = wall_with_two_gaps()
+    person = barrier + np.array((1.5, 0.0))
+    target, here = DriveTarget((6.0, 0.0, 0.0), 0.2, None), (2.3, 0.0, 0.0)
+    person[:, 0] = here[0] + robot.length / 2 + 0.35
+    driver = Driver(robot)
+    speeds = [
+        driver.drive(points, target, here, moving=person).forward
+        for _ in range(JAM_STEPS + INSISTING_STEPS)
+    ]
+    assert min(speeds) == 0.0
+    assert 0.0 < max(speeds) <= INSISTING_SHARE * robot.max_speed
+
+
+def test_a_robot_among_people_takes_no_door_in_place_of_a_blocked_gate():
+    points, barrier = wall_with_two_gaps()
+    beyond, elsewhere = ((5.0, -1.0), (5.0, 1.0)), np.array([(-2.0, -2.0)])
+    closed = np.vstack((points, points_of_segments(np.array([[3.0, 3.5, 3.0, 4.5]]))))
+    target = DriveTarget((6.0, 0.0, 0.0), 0.2, None, gate=beyond)
+    told = target, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), barrier
+    alone, driver = Driver(WHEELCHAIR), Driver(WHEELCHAIR)
+    alone.drive(closed, *told)
+    assert alone.path.crosses(*GATES[0.0])
+    driver.drive(closed, *told, elsewhere)
+    for _ in range(AMONG_PEOPLE_STEPS - 2):
+        assert not driver.path.crosses(*GATES[0.0])
+        driver.drive(closed, *told)
 
 
 @ROBOTS

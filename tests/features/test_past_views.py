@@ -10,12 +10,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_features.frames import FloatArray
+from semnav_features.kernels.memory import MIN_SHORT_WALL_SIGHTINGS
 from semnav_features.kernels.past_views import (
     FREE,
     HIDDEN,
     NO_RETURN,
     SOLID,
+    STANDING_DISTANCE,
     UNSEEN,
+    VIEW_PATIENCE,
+    VIEW_PERIOD,
     VIEW_SPACING,
     VIEWS,
     look_back,
@@ -27,6 +31,8 @@ from tests.support.remembering import ANGLES, Ends, beams_that_end_at, see
 SHORT: Ends = (0.3, 2.0, -0.3, 2.0)
 LONG: Ends = (1.0, 2.0, -1.0, 2.0)
 GAP: Ends = (0.5, 2.0, -0.5, 2.0)
+LONG_APART: Ends = (4.0, 5.0, 2.0, 5.0)
+IN_LINE: Ends = (1.0, 2.0, -2.0, 2.0)
 
 
 def beams_in_a_circle(radius: float) -> FloatArray:
@@ -96,8 +102,61 @@ def test_what_comes_out_from_behind_something_is_no_wall_before_a_view_has_shown
     see(memory, ranges=beams_that_end_at(1.0))
     see(memory, walls=[SHORT], ranges=beams_that_end_at(2.0), scans=3)
     assert memory.size[0] == 0
-    see(memory, walls=[SHORT], ranges=beams_that_end_at(2.0), scans=8)
+    see(memory, walls=[SHORT], ranges=beams_that_end_at(2.0), scans=12)
     assert memory.size[0] == 1
+
+
+def test_a_short_wall_counts_when_it_has_stood_longer_than_somebody_who_walks() -> None:
+    memory = SceneMemory()
+    see(memory, walls=[SHORT, LONG_APART], scans=2)
+    assert memory.size[0] == 1
+    see(memory, walls=[SHORT, LONG_APART], scans=MIN_SHORT_WALL_SIGHTINGS - 3)
+    assert memory.size[0] == 1
+    see(memory, walls=[SHORT, LONG_APART])
+    assert memory.size[0] == 2
+
+
+def a_wall_with_an_open_end() -> FloatArray:
+    """The ranges of a scan that meets `IN_LINE` left of x = 0.5, and sees far right of it."""
+    ranges = beams_that_end_at(2.0)
+    ranges[180 : 180 + round(math.degrees(math.atan2(2.0, 0.5)))] = 6.0
+    return ranges
+
+
+@pytest.mark.parametrize("before", [True, False])
+def test_whoever_stood_in_line_with_a_long_wall_is_no_part_of_it(before: bool) -> None:
+    memory = SceneMemory()
+    if before:
+        see(memory, ranges=a_wall_with_an_open_end())
+        see(memory, walls=[IN_LINE], ranges=beams_that_end_at(2.0), scans=3)
+    else:
+        see(memory, walls=[IN_LINE], ranges=beams_that_end_at(2.0), scans=3)
+        assert widest(memory) == pytest.approx(1.0)
+        see(memory, ranges=a_wall_with_an_open_end(), scans=VIEW_PERIOD)
+    assert 0.4 < widest(memory) < 0.75
+
+
+def test_a_long_wall_is_cut_where_views_pass_although_its_end_touches_another() -> None:
+    memory = SceneMemory()
+    touching = 180 + round(math.degrees(math.atan2(2.0, 0.85)))
+    ranges = beams_that_end_at(2.0)
+    ranges[touching:276] = 6.0
+    see(memory, walls=[(1.0, 2.0, -3.0, 2.0)], ranges=beams_that_end_at(2.0), scans=3)
+    see(memory, ranges=ranges, scans=VIEW_PERIOD)
+    assert widest(memory) < 0.5
+
+
+def test_a_robot_that_stands_beside_its_newest_view_sees_that_somebody_has_gone() -> None:
+    memory = SceneMemory()
+    see(memory, doors=[GAP], ranges=beams_that_end_at(2.0), scans=3)
+    beside = 0.0, 3.0 * STANDING_DISTANCE, 0.0
+    see(memory, ranges=beams_that_end_at(4.0), pose=beside, scans=VIEW_PATIENCE + VIEW_PERIOD)
+    assert memory.size[1] == 0
+
+
+def widest(memory: SceneMemory) -> float:
+    """The largest x that a wall of the memory reaches."""
+    return max(max(wall.start[0], wall.end[0]) for wall in memory.scene().walls)
 
 
 def test_a_gap_beside_what_stands_where_a_view_passed_is_no_door() -> None:

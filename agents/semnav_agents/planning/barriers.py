@@ -48,7 +48,8 @@ class BarrierPlanner:
         target: DriveTarget,
         barriers: FloatArray,
         settings: PlannerSettings,
-    ) -> PlannedPath:
+        insists: bool = False,
+    ) -> PlannedPath | None:
         """A path through the target's gate, if it has one, and through no barrier.
 
         The first of these is taken that leads right: among the points alone; around barriers and
@@ -56,6 +57,15 @@ class BarrierPlanner:
         for a barrier may be no door. A way around barriers must be no longer than `detour` allows,
         to a gate by `GATE_DETOUR` longer; without a gate the robot waits for such a way before it
         takes the first.
+
+        Args:
+            points: obstacles, metres, shape (n, 2).
+            start: the centre's pose in their frame.
+            target: where to go.
+            barriers: points, metres, shape (m, 2).
+            settings: the planner's.
+            insists: whether no other way is taken than one around barriers, or a part of it; None
+                where that is too long.
         """
 
         def among(*solid: FloatArray) -> PlannedPath:
@@ -72,6 +82,9 @@ class BarrierPlanner:
         if self._leads(around, target, barriers) and around.length < longest:
             self.heeds_barriers = True
             return around
+        if insists and not is_free(barriers, path.poses, self.robot):
+            self.heeds_barriers = True
+            return None if around.complete else around
         if len(barriers) and not self._heads_right(path, target, NO_POINTS):
             around = among(beside)
             if self._leads(around, target, NO_POINTS):

@@ -24,7 +24,12 @@ from semnav_agents.planning.path import PlannedPath, joined
 from semnav_agents.planning.path_ahead import PathAhead, is_nearly_driven, poses_ahead, stays_free
 from semnav_agents.planning.planner import DriveTarget, PlannerSettings, is_free
 from semnav_agents.planning.track import FollowerSettings, PathTrack
-from semnav_agents.planning.yielding import BACKING_SPEED, Yielding, yield_distance
+from semnav_agents.planning.yielding import (
+    BACKING_SPEED,
+    INSISTING_SHARE,
+    Yielding,
+    yield_distance,
+)
 from semnav_env.language.clauses import Speed
 from semnav_env.mind.observations.pace_entry import PACES
 from semnav_env.robots import RobotSpec
@@ -49,8 +54,8 @@ class Driver:
 
     It plans again when the target moves, when an obstacle lies on the path, when the robot is off
     the path, and when a path that led only part of the way is nearly driven. For what moves it
-    waits; only if that does not go away it plans around it, by a short way; and from a jam it backs
-    off.
+    waits; only if that does not go away it plans around it, by a short way; in a jam it creeps on,
+    or backs off. Among people it passes no barrier.
 
     Attributes:
         robot: footprint and limits.
@@ -99,7 +104,8 @@ class Driver:
     def put(self, record: Any) -> None:
         """Write what compiled code must know to drive on, see `cruise.CRUISE`."""
         counts, track = record["counts"], self._track
-        counts["ready"] = track is not None and not self._braking and fits(track)
+        follows = not self._braking and self._yielding.insisting <= 0
+        counts["ready"] = follows and track is not None and fits(track)
         if not counts["ready"] or track is None or self._target is None:
             return
         waiting = self._yielding
@@ -162,7 +168,7 @@ class Driver:
         """
         self._step += 1
         self._wait -= 1
-        self._yielding.count_step()
+        self._yielding.count_step(self._step, len(moving) > 0)
         standing = obstacles = as_obstacles(points)
         barriers = as_obstacles(barriers)
         if self._yielding.around > 0:
@@ -174,18 +180,22 @@ class Driver:
             return STANDSTILL
         if self._must_plan(obstacles, target, pose, barriers):
             if self._wait > 0:
-                return STANDSTILL
+                return self._hold(velocity) if self._is_among_people() else STANDSTILL
             self._plan(obstacles.points(), target, pose, velocity, barriers.points())
             if self._yielding.around > 0 and not self._leads_around(target, barriers.points()):
                 self._yielding.around = 0
                 self._plan(standing.points(), target, pose, velocity, barriers.points())
-        assert self._track is not None
-        if self._yielding.around <= 0 and self._yields(moving, pose, velocity):
+        if self._track is None:
+            return self._hold(velocity)
+        insists = self._yielding.insisting > 0
+        if not insists and self._yielding.around <= 0 and self._yields(moving, pose, velocity):
             return self._hold(velocity)
         steering = follow(self._track, self._progress, relative(self._shift, pose), velocity)
         self._progress = steering.progress
         if steering.deviation > self.follower.lost:
             return self._stop()
+        if insists and not steering.done:
+            steering = steering.slowed(INSISTING_SHARE)
         near = points_around(pose, moving, GUARD_REACH * self.robot.length)
         if safe_share(near, steering.twist, velocity, self._body) == 0.0:
             return self._hold(velocity)  # it is no noise, so that the robot never insists
@@ -206,6 +216,9 @@ class Driver:
         if self._yielding.loses_patience():
             self._track = None
         return True
+
+    def _is_among_people(self) -> bool:
+        return self._yielding.is_among_people(self._step)
 
     def _hold(self, velocity: Twist) -> Steering:
         self._yielding.hold(velocity)
@@ -279,22 +292,29 @@ class Driver:
         """Plan from the robot's pose; while it drives, from where it can stop on its path."""
         kept = self._path_to_stop(points, pose, velocity)
         start = pose if kept is None else kept.end
-        self.path = self._barriers.path(points, start, target, barriers, self.planner)
-        if kept is not None:
-            self.path = joined(kept, self.path)
         self.plans += 1
+        path = self._barriers.path(
+            points, start, target, barriers, self.planner, self._is_among_people()
+        )
+        if path is None:
+            self._track, self._wait = None, self.retry_after
+            return
+        self.path = path if kept is None else joined(kept, path)
         self._target, self._progress, self._shift = target, PathProgress(), ORIGIN
         self._track = self._track_of(self.path)
         if not self.path.complete:
             self._wait = self.retry_after
 
     def _leads_around(self, target: DriveTarget, barriers: FloatArray) -> bool:
-        """Whether the path leads to the target by a short way and through no barrier.
+        """Whether the path leads to the target by a short way, forward, and through no barrier.
 
-        A long way leads through what has not been seen yet, and so through doors.
+        A long way leads through what has not been seen yet, and so through doors. Backwards the
+        lidar sees little, and whoever walks behind the robot stands there when it stops.
         """
         path = self.path
         if path is None or not path.complete or not is_free(barriers, path.poses, self.robot):
+            return False
+        if path.backs:
             return False
         direct = math.dist(path.start[:2], target.pose[:2])
         return path.length < self.detour * direct + EVASION_LENGTH

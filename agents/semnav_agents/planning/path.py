@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_agents.planning.motion import kind_of, move_at, moved
+from semnav_agents.planning.motion import REVERSE, kind_of, move_at, moved
 from semnav_features.frames import FloatArray, Point, Pose, compose, points_to_local
 from semnav_features.kernels.compiling import kernel
 
@@ -77,6 +77,11 @@ class PlannedPath:
     def length(self) -> float:
         """Distance that the axle travels, metres."""
         return float(np.hypot(self.moves[:, 0], self.moves[:, 1]).sum())
+
+    @property
+    def backs(self) -> bool:
+        """Whether a part of it is driven backwards."""
+        return bool((self.kinds == REVERSE).any())
 
     def part(self, first: int, last: int, frame: Pose) -> PlannedPath:
         """The stretch between two samples.

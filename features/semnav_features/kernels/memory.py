@@ -22,11 +22,13 @@ from semnav_features.kernels.pass_through import is_passed_by_beams
 from semnav_features.kernels.past_views import (
     FREE,
     HIDDEN,
+    NO_RETURN,
     SOLID,
     UNSEEN,
     VIEWS,
     look_back,
     look_from,
+    may_be_free,
     note_view,
 )
 from semnav_features.kernels.remembered import (
@@ -40,17 +42,22 @@ from semnav_features.kernels.remembered import (
 )
 from semnav_features.kernels.rows import put_row
 
-COUNTERS = ("walls", "doors", "scans", "views")
+COUNTERS = ("walls", "doors", "scans", "views", "viewed")
 """Fields of `MEMORY_STATE` that are zero while nothing is remembered."""
 
 MEMORY_STATE = np.dtype(
     [(name, "i8") for name in COUNTERS] + [("narrowest", "f8"), ("widest", "f8")]
 )
 """How many entries of the walls and of the doors are used, how many scans were added, how many of
-them were kept as views, and the least and the largest width of a door, metres; shape (1,)."""
+them were kept as views, the scan of the newest view, and the least and the largest width of a door,
+metres; shape (1,)."""
 
 MIN_WALL_SIGHTINGS = 2
 """A wall counts from this many sightings on."""
+
+SHORT_WALL, MIN_SHORT_WALL_SIGHTINGS = 0.8, 8
+"""A wall shorter than this, metres, counts from this many sightings on: it may be somebody who
+walks, and stays in one place for less than half a second."""
 
 MAX_WEIGHING_SIGHTINGS = 10
 """Older sightings together weigh no more than this many: odometry drifts."""
@@ -74,6 +81,13 @@ SAME_LINE_GAP = 0.3
 MAX_MOVING_LENGTH = 1.4
 """Length from which on a wall stands whatever earlier views tell, metres: people and leaves are
 shorter."""
+
+END_STEP, END_STEPS, TOUCHING_STEPS = 0.15, 4, 2
+"""Length of the pieces at the ends of a long wall that are looked at, metres, and their number: as
+long as a person is wide; and how many may touch another wall."""
+
+MAX_CLEAR_DISTANCE = 5.0
+"""Distance up to which a wall would have returned the beams of any lidar, metres."""
 
 JAMB_DEPTH = 0.15
 """Distance from the opening at which a jamb is looked at, metres."""
@@ -118,6 +132,7 @@ def remember(
     for i in range(counts[WALLS]):
         wall = placed(walls[i], frame)
         if stands(wall, used.views, seen):
+            wall = standing_part(wall, used.views, seen)
             used.walls = remember_wall(wall, known_walls, used.walls)
     for i in range(counts[DOORS]):
         door = placed(doors[i], frame)
@@ -171,6 +186,62 @@ def stands(wall: Ends, count: int, views: Any) -> bool:
 
 
 @kernel
+def standing_part(wall: Ends, count: int, views: Any) -> Ends:
+    """A long wall without what stands at its ends where earlier views passed: somebody in line.
+
+    Args:
+        wall: in the memory's frame.
+        count: of the views that were kept so far.
+        views: `PAST_VIEWS`.
+    """
+    x, y, dx, dy = wall[0], wall[1], wall[2] - wall[0], wall[3] - wall[1]
+    length = math.hypot(dx, dy)
+    if length <= MAX_MOVING_LENGTH:
+        return wall
+    step_x, step_y = END_STEP * dx / length, END_STEP * dy / length
+    first = _free_steps(x, y, step_x, step_y, count, views)
+    last = _free_steps(wall[2], wall[3], -step_x, -step_y, count, views)
+    if (first + last + 1) * END_STEP > length:
+        return wall
+    x2, y2 = wall[2] - last * step_x, wall[3] - last * step_y
+    return x + first * step_x, y + first * step_y, x2, y2
+
+
+@kernel
+def _free_steps(x: float, y: float, step_x: float, step_y: float, count: int, views: Any) -> int:
+    """How many steps from an end of a wall lead to where no view passed; `END_STEPS` at most.
+
+    The end itself may touch another wall, before which no view passes: then `TOUCHING_STEPS` are
+    passed over, and more of what follows must be free.
+    """
+    for skipped, least in ((0, 1), (TOUCHING_STEPS, END_STEPS - 1)):
+        steps = skipped
+        while steps < skipped + END_STEPS and _is_free(
+            x + (steps + 0.5) * step_x, y + (steps + 0.5) * step_y, count, views
+        ):
+            steps += 1
+        if steps - skipped >= least:
+            return steps
+    return 0
+
+
+@kernel
+def _is_free(x: float, y: float, count: int, views: Any) -> bool:
+    """Whether an earlier view passed a place.
+
+    A view without return passed it, too, if a wall would have been near enough for one.
+    """
+    for v in range(min(count, VIEWS)):
+        if not may_be_free(x, y, v, views):
+            continue
+        told = look_from(x, y, v, views)
+        away = math.hypot(x - views.places[v, 0], y - views.places[v, 1])
+        if told == FREE or (told == NO_RETURN and away < MAX_CLEAR_DISTANCE):
+            return True
+    return False
+
+
+@kernel
 def has_standing_jambs(door: Ends, count: int, views: Any) -> bool:
     """Whether earlier views leave room for both jambs of a door.
 
@@ -216,7 +287,10 @@ def forget_passed(memory: Memory) -> None:
     for k in range(used.walls):
         x, y, x2, y2 = ends_of_wall(walls, k)
         dx, dy = x2 - x, y2 - y
-        if walls[HITS, k] == 0.0 or dx * dx + dy * dy > MAX_MOVING_LENGTH**2:
+        if walls[HITS, k] == 0.0:
+            continue
+        if dx * dx + dy * dy > MAX_MOVING_LENGTH**2:
+            write_wall(walls, k, standing_part((x, y, x2, y2), used.views, seen), walls[HITS, k])
             continue
         passed = True
         for share in (0.5, 0.2, 0.8):
@@ -269,7 +343,7 @@ def how_many_count(memory: Memory) -> tuple[int, int]:
     used = state[0]
     wall_total, door_total = 0, 0
     for k in range(used.walls):
-        wall_total += walls[HITS, k] >= MIN_WALL_SIGHTINGS
+        wall_total += wall_counts(walls, k)
     for k in range(used.doors):
         door_total += door_counts(doors[: used.doors], k, used)
     return wall_total, door_total
@@ -289,7 +363,7 @@ def what_counts(memory: Memory) -> tuple[FloatArray, FloatArray, FloatArray]:
     beliefs = np.empty((used.doors, 2))
     n = m = 0
     for k in range(used.walls):
-        if walls[HITS, k] >= MIN_WALL_SIGHTINGS:
+        if wall_counts(walls, k):
             put_row(wall_ends, n, ends_of_wall(walls, k))
             n += 1
     for k in range(used.doors):
@@ -299,6 +373,14 @@ def what_counts(memory: Memory) -> tuple[FloatArray, FloatArray, FloatArray]:
             put_row(beliefs, m, (door.log_odds, float(door.hits)))
             m += 1
     return wall_ends[:n], door_ends[:m], beliefs[:m]
+
+
+@kernel
+def wall_counts(walls: FloatArray, k: int) -> bool:
+    """Whether remembered wall `k` was seen often enough to count."""
+    x, y, x2, y2 = ends_of_wall(walls, k)
+    is_short = (x2 - x) ** 2 + (y2 - y) ** 2 < SHORT_WALL**2
+    return bool(walls[HITS, k] >= (MIN_SHORT_WALL_SIGHTINGS if is_short else MIN_WALL_SIGHTINGS))
 
 
 @kernel

@@ -2,7 +2,7 @@
 
 What stands where an earlier view passed is neither wall nor jamb: it is a person, or the leaf of a
 door. So is what stood in the way of a view and does not stand there now. A view is kept for each
-metre or so, and the newest is widened while the robot stands.
+metre or so, and every two seconds where the robot is slow; the newest is widened while it stands.
 """
 
 from __future__ import annotations
@@ -36,6 +36,10 @@ VIEW_SPACING = 0.7
 STANDING_DISTANCE = 0.03
 """Distance from the place of a view within which scans widen it, metres."""
 
+VIEW_PATIENCE = 30
+"""Scans after which another view is kept where the robot has moved on less, but does not stand at
+the newest: so that a robot that waits sees that somebody has gone."""
+
 VIEW_PERIOD = 4
 """A robot that stands widens its view at each fourth scan: that spreads the work over scans."""
 
@@ -66,16 +70,19 @@ def note_view(
         angle_min: of the scan, radians.
         angle_increment: of the scan, radians.
         pose: of the lidar in the memory's frame.
-        used: an entry of `memory.MEMORY_STATE`: `views` counts the views that were kept so far.
+        used: an entry of `memory.MEMORY_STATE`: `views` counts the views that were kept so far,
+            and `viewed` is the scan of the newest.
         views: `PAST_VIEWS`, changed in place.
     """
     newest = (used.views - 1) % VIEWS
     moved = math.inf
     if used.views > 0:
         moved = math.hypot(pose[0] - views.places[newest, 0], pose[1] - views.places[newest, 1])
-    if moved >= VIEW_SPACING:
+    is_late = moved > STANDING_DISTANCE and used.scans - used.viewed >= VIEW_PATIENCE
+    if moved >= VIEW_SPACING or is_late:
         newest = used.views % VIEWS
         used.views += 1
+        used.viewed = used.scans
         views.places[newest, 0], views.places[newest, 1] = pose[0], pose[1]
         views.ranges[newest, :] = 0.0
     elif moved > STANDING_DISTANCE or used.scans % VIEW_PERIOD != 0:
@@ -153,6 +160,15 @@ def mark_maybe_free(
         for i in range(len(maybe)):
             least = ranges[sectors[i]] - (FREE_DEPTH - 1e-5)
             maybe[i] |= (least > 0.0) & (least * least > squared[i])
+
+
+@kernel
+def may_be_free(x: float, y: float, v: int, views: Any) -> bool:
+    """Whether view `v` may have passed a place, a quick test; see `mark_maybe_free`."""
+    dx, dy = x - views.places[v, 0], y - views.places[v, 1]
+    sector = int(rough_angle(dx, dy) * (1.0 / SECTOR_ANGLE) + SECTORS) % SECTORS
+    least = views.ranges[v, sector] - (FREE_DEPTH - 1e-5)
+    return bool(least > 0.0 and least * least > dx * dx + dy * dy)
 
 
 @kernel
