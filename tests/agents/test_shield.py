@@ -46,6 +46,23 @@ def test_at_a_wall_it_does_not_drive_on_but_may_back_out(robot):
     assert np.array_equal(shield.checked(back, wall, HERE, STILL), back)
 
 
+@pytest.mark.parametrize("robot", ROBOTS)
+@pytest.mark.parametrize("gap", [0.005, 0.02, 0.2])
+@pytest.mark.parametrize("share", [1.0, 0.1, 0.02, 0.01])
+def test_a_robot_that_insists_does_not_creep_onto_a_wall(robot, gap, share):
+    """Ten seconds of driving on: neither patience nor many small steps lead to a contact."""
+    spec, period, pose = ROBOTS[robot], 1.0 / 15.0, HERE
+    wall, shield = wall_ahead(spec, gap), Shield(spec, 15.0)
+    action, speed = share * np.eye(spec.action_size, dtype=np.float32)[0], 0.0
+    for _ in range(150):
+        seen = wall - (pose[0], 0.0)
+        wanted = float(shield.checked(action, seen, HERE, (speed, 0.0, 0.0))[0]) * spec.max_speed
+        change = spec.max_acceleration * period
+        speed += min(max(wanted - speed, -change), change)
+        pose = (pose[0] + speed * period, 0.0, 0.0)
+        assert pose[0] < gap
+
+
 def test_what_it_chooses_does_not_depend_on_the_frame():
     spec = ROBOTS["wheelchair"]
     points = wall_ahead(spec, 0.1)

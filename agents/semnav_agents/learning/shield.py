@@ -68,6 +68,10 @@ class Nearness(NamedTuple):
 class ShieldSettings:
     """How a shield checks.
 
+    Remembered obstacles lie some 2 cm beside the true ones: when robots touched something, the
+    nearest of them was 10 to 19 mm away. So `margin` is larger than that, and `least` keeps a robot
+    from coming into contact by many small steps, each of which is within `deeper`.
+
     Attributes:
         foresight: time for which an action is held before the robot brakes, seconds.
         margin: distance below which an obstacle counts as touched, metres.
@@ -81,11 +85,11 @@ class ShieldSettings:
     """
 
     foresight: Share = 0.2
-    margin: Length = 0.01
+    margin: Length = 0.03
     deeper: Length = 0.004
     patience: Share = 0.6
-    give: Length = 0.02
-    least: Offset = -1.0
+    give: Length = 0.015
+    least: Offset = 0.015
     period: Share = 0.1
     tests: Count = 1
 
