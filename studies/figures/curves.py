@@ -88,7 +88,11 @@ def draw_driving(ax: Axes) -> None:
         for number, (colour, label) in enumerate(WHO_COLLECTS):
             points = [(k, row["success"]) for k, row in chunks if row["round"] == number]
             _draw_training(ax, name, points, colour, label)
-    ax.set(xlabel="chunk of 25 or 50 episodes of train", ylabel="success", title="listener, who collects")
+    ax.set(
+        xlabel="chunk of 25 or 50 episodes of train",
+        ylabel="success",
+        title="listener, who collects",
+    )
     ax.set_ylim(0.0, 1.02)
     ax.legend(fontsize=8, loc="lower left")
 
