@@ -121,7 +121,7 @@ class LearnedAgent:
             raise ValueError(f"this agent was trained on {trained}, not {self._robot.name!r}")
         lidar = LidarSpec(**info["lidar"])
         self._observer = CompactObserver([self._robot], lidar)
-        self._shield = Shield(self._robot, lidar.rate_hz) if self.shielded else None
+        self._shield = Shield(self._robot) if self.shielded else None
         self._inertia = Inertia(self._robot)
         self._held = 0
 

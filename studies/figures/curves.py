@@ -30,7 +30,11 @@ MEASURES = {
 BUNDLED = "bundled"
 """Name of the bundled training of `listener`, whose lines are thick; others have thin ones."""
 
-WHO_COLLECTS = (("C0", "scripted agent, round 0"), ("C1", "learner, round 1"))
+WHO_COLLECTS = (
+    ("C0", "scripted agent, round 0"),
+    ("C1", "learner, round 1"),
+    ("C2", "learner and scripted agent, round 2"),
+)
 
 
 def kept(preset: str) -> dict[int, Any]:
@@ -84,7 +88,11 @@ def draw_driving(ax: Axes) -> None:
         for number, (colour, label) in enumerate(WHO_COLLECTS):
             points = [(k, row["success"]) for k, row in chunks if row["round"] == number]
             _draw_training(ax, name, points, colour, label)
-    ax.set(xlabel="chunk of 50 episodes of train", ylabel="success", title="listener, who collects")
+    ax.set(
+        xlabel="chunk of 25 or 50 episodes of train",
+        ylabel="success",
+        title="listener, who collects",
+    )
     ax.set_ylim(0.0, 1.02)
     ax.legend(fontsize=8, loc="lower left")
 
@@ -93,6 +101,8 @@ def _draw_training(
     ax: Axes, name: str, points: list[tuple[int, float]], colour: str, label: str
 ) -> None:
     """Draw one curve of one training; the bundled one alone stands in the legend."""
+    if not points:  # earlier trainings had no third round
+        return
     width, shown = (2.0, label) if name == BUNDLED else (0.7, None)
     ax.plot(*zip(*points, strict=True), ".-", color=colour, linewidth=width, label=shown)
 

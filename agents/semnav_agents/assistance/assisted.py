@@ -40,9 +40,9 @@ def strict_shield(robot: RobotSpec, control_hz: float) -> Shield:
     """
     period = 1.0 / control_hz
     settings = ShieldSettings(
-        foresight=period, period=period, tests=8, margin=0.05, deeper=0.001, give=0.0, least=0.02
+        foresight=period, period=period, tests=8, margin=0.05, deeper=0.001, least=0.02
     )
-    return Shield(robot, control_hz, settings)
+    return Shield(robot, settings)
 
 
 class Assisted:

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 from semnav_agents.hearing.network import NetworkShape
-from semnav_features.checked_fields import Bounds, Count, Share, check_fields
+from semnav_features.checked_fields import Bounds, Count, OneOf, Share, check_fields
+
+SampleDriver: TypeAlias = Annotated[str, OneOf(("scripted", "planner", "policy"))]
+"""Who drives while samples are collected: the scripted agent to the environment's goals, or to the
+learner's goals its planner or the bundled policy `drive`."""
 
 
 @dataclass(frozen=True)
@@ -21,11 +25,15 @@ class HearingRound:
         episodes: that are driven.
         epochs: passes over all samples.
         rate: largest step size of AdamW; it falls to a fiftieth of this.
+        drivers: of the chunks of episodes, in turn.
+        robots: names of the bodies of the chunks, in turn.
     """
 
     episodes: Count
     epochs: Count
     rate: Share = 1.5e-3
+    drivers: tuple[SampleDriver, ...] = ("planner",)
+    robots: tuple[str, ...] = ("wheelchair",)
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -37,7 +45,6 @@ class HearingPreset:
 
     Attributes:
         name: as in `semnav train NAME`.
-        robot: name of the body that drives while samples are collected.
         split: of the frozen episodes.
         rounds: one after the other.
         chunk: episodes between checkpoints while driving.
@@ -48,7 +55,6 @@ class HearingPreset:
 
     name: str
     rounds: tuple[HearingRound, ...]
-    robot: str = "wheelchair"
     split: str = "train"
     chunk: Count = 50
     batch_size: Count = 256
@@ -59,12 +65,24 @@ class HearingPreset:
         check_fields(self)
 
 
+MIXED_DRIVERS = (
+    *("policy", "policy", "scripted", "policy"),
+    *("planner", "policy", "scripted", "policy"),
+)
+MIXED_ROBOTS = ("wheelchair", "spot", *("wheelchair",) * 4, "spot", "wheelchair")
+"""Of eight chunks five are driven by the policy, which errs most, and two by the scripted agent, so
+that what it shows is not forgotten; two are driven with SPOT."""
+
 HEARING_PRESETS = {
     preset.name: preset
     for preset in (
         HearingPreset(
             "listener",
-            (HearingRound(700, 8), HearingRound(200, 10, 1e-3)),
+            (
+                HearingRound(700, 8, drivers=("scripted",)),
+                HearingRound(200, 10, 1e-3),
+                HearingRound(1100, 10, 8e-4, MIXED_DRIVERS, MIXED_ROBOTS),
+            ),
         ),
     )
 }

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import torch
 
+from semnav_agents.base import Agent
 from semnav_agents.hearing.agent import HearingAgent
 from semnav_agents.hearing.collecting import Collector, Samples, ShownAgent
 from semnav_agents.hearing.learning import Learner, measured
@@ -25,6 +26,7 @@ from semnav_agents.hearing.mirror import Arrays
 from semnav_agents.hearing.network import GroundingNetwork, NetworkShape
 from semnav_agents.hearing.presets import HearingPreset, HearingRound
 from semnav_agents.hearing.torch_network import TorchGrounding
+from semnav_agents.learned import LearnedAgent
 from semnav_env.judge.episodes import Episode, load_episodes
 from semnav_env.networks.card import CARD_FILE, Card
 from semnav_env.networks.weights import load_tensors, save_tensors, save_weights
@@ -98,8 +100,10 @@ class HearingTrainer:
         """Drive the episodes of a chunk and keep their samples."""
         start = time.process_time()
         seed, preset = (self.seed, number, chunk), self.preset
-        collector = Collector(self._commands, seed, preset.robot, preset.max_seconds)
-        driver = ShownAgent() if number == 0 else HearingAgent(self._as_driven())
+        drivers, robots = preset.rounds[number].drivers, preset.rounds[number].robots
+        robot = robots[chunk % len(robots)]
+        collector = Collector(self._commands, seed, robot, preset.max_seconds)
+        driver = self._driver(drivers[chunk % len(drivers)])
         samples, done = Samples(), []
         for episode in self._episodes(number, chunk):
             done.append(collector.drive(episode, driver, samples))
@@ -125,8 +129,12 @@ class HearingTrainer:
         row |= {name: round(value, 4) for name, value in found.items() if math.isfinite(value)}
         return row | {"seconds": round(time.process_time() - start, 1)}
 
-    def _as_driven(self) -> GroundingNetwork:
-        return GroundingNetwork(self.preset.shape, self.network.arrays())
+    def _driver(self, name: str) -> Agent:
+        """An agent that drives while samples are collected, see `HearingRound.drivers`."""
+        if name == "scripted":
+            return ShownAgent()
+        network = GroundingNetwork(self.preset.shape, self.network.arrays())
+        return HearingAgent(network, LearnedAgent.load("drive") if name == "policy" else None)
 
     def _samples(self, number: int) -> Arrays:
         """All samples so far, except those of the chunk that is held out."""

@@ -27,9 +27,6 @@ REACH = 2.4
 MAX_PERIODS = 600
 """A robot that does not stand after so many periods counts as one that cannot stop."""
 
-STANDING_SPEED = 0.03
-"""Speed below which a robot stands, m/s or rad/s."""
-
 _SHARES = (1.0, 0.6, 0.3)
 """Shares of the wanted twist that are tried first."""
 
@@ -68,24 +65,23 @@ class Nearness(NamedTuple):
 class ShieldSettings:
     """How a shield checks.
 
+    Remembered obstacles lie some 2 cm beside the true ones: when robots touched something, the
+    nearest of them was 10 to 19 mm away. So `margin` is larger than that, and `least` keeps a robot
+    from coming into contact by many small steps, each of which is within `deeper`.
+
     Attributes:
         foresight: time for which an action is held before the robot brakes, seconds.
         margin: distance below which an obstacle counts as touched, metres.
         deeper: a robot that is nearer already may not come nearer by more than this, metres.
-        patience: time for which a robot that the shield holds waits, seconds; after it `margin` and
-            `least` are lowered for as long by `give`, as noise may be what holds it.
-        give: metres.
         least: distance below which nothing may come nearer at all, metres; if negative, none is.
         period: time for which a velocity holds, seconds; then the limits let it change.
         tests: number of poses that are tested in each period.
     """
 
     foresight: Share = 0.2
-    margin: Length = 0.01
+    margin: Length = 0.03
     deeper: Length = 0.004
-    patience: Share = 0.6
-    give: Length = 0.02
-    least: Offset = -1.0
+    least: Offset = 0.015
     period: Share = 0.1
     tests: Count = 1
 
@@ -98,17 +94,12 @@ class Shield:
 
     Args:
         robot: the body.
-        control_hz: actions a second.
         settings: None for the defaults.
     """
 
-    def __init__(
-        self, robot: RobotSpec, control_hz: float, settings: ShieldSettings | None = None
-    ) -> None:
+    def __init__(self, robot: RobotSpec, settings: ShieldSettings | None = None) -> None:
         self._robot, self._settings = robot, settings or ShieldSettings()
-        self._patience = round(self._settings.patience * control_hz)
         self._shape = body_shape(robot)
-        self._held = self._lenient = 0
         sideways = _SIDEWAYS if robot.holonomic else (0.0,)
         self._others = np.array(
             [(v, left, w) for v in _FORWARD for left in sideways for w in _TURNS]
@@ -126,7 +117,6 @@ class Shield:
             velocity: of the robot's centre.
         """
         robot, settings = self._robot, self._settings
-        leniency = self._leniency(velocity)
         near = points_around(pose, points, REACH)
         wanted = np.array([action[0], action[1] if robot.holonomic else 0.0, action[-1]], float)
         order = np.argsort(np.abs(self._others - wanted).sum(axis=1), kind="stable")
@@ -138,20 +128,11 @@ class Shield:
             velocity,
             (robot.max_acceleration, robot.max_acceleration, robot.max_turn_acceleration),
             Lookahead(settings.period, round(settings.foresight / settings.period), settings.tests),
-            Nearness(settings.margin - leniency, settings.deeper, settings.least - leniency),
+            Nearness(settings.margin, settings.deeper, settings.least),
         )
-        self._held = self._held + 1 if k < 0 or k >= len(_SHARES) else 0
         if k < 0:
             return np.zeros_like(action)
         return np.asarray(tried[k] if robot.holonomic else tried[k, [0, 2]], np.float32)
-
-    def _leniency(self, velocity: Twist) -> float:
-        """By how much less is kept for a while, after the shield has held a robot that stands."""
-        steps = self._patience
-        if self._held >= steps and max(map(abs, velocity)) < STANDING_SPEED:
-            self._held, self._lenient = 0, steps
-        self._lenient -= self._lenient > 0
-        return self._settings.give if self._lenient else 0.0
 
 
 @kernel

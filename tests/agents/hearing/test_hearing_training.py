@@ -24,7 +24,10 @@ from semnav_scripts import main as cli  # noqa: E402
 TINY = replace(
     HEARING_PRESETS["listener"],
     name="tiny_listener",
-    rounds=(HearingRound(2, 2), HearingRound(1, 2)),
+    rounds=(
+        HearingRound(2, 2, drivers=("scripted",)),
+        HearingRound(2, 2, drivers=("planner", "policy"), robots=("wheelchair", "spot")),
+    ),
     chunk=1,
     batch_size=16,
     max_seconds=8.0,
@@ -43,7 +46,7 @@ def test_every_chunk_and_epoch_is_in_the_curve(trained):
     folder, rows = trained
     assert [(row["round"], "epoch" in row) for row in rows] == [
         *((0, is_epoch) for is_epoch in (False, False, True, True)),
-        *((1, is_epoch) for is_epoch in (False, True, True)),
+        *((1, is_epoch) for is_epoch in (False, False, True, True)),
     ]
     assert Card.read(folder, NetworkShape).curve == rows
     assert all(np.isfinite(row["loss"]) for row in rows if "epoch" in row)
@@ -97,7 +100,8 @@ def test_batches_hold_every_sample_once():
 
 
 def test_command_line_trains_and_goes_on(monkeypatch, tmp_path, capsys):
-    preset = replace(TINY, name="tiny_listener", rounds=(HearingRound(1, 2),))
+    shown = HearingRound(1, 2, drivers=("scripted",))
+    preset = replace(TINY, name="tiny_listener", rounds=(shown,))
     monkeypatch.setitem(HEARING_PRESETS, preset.name, preset)
     arguments = ["train", preset.name, "--out", str(tmp_path / "a")]
     assert cli.main([*arguments, "--minutes", "0.0001"]) == 0
