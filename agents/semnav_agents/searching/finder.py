@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
-from semnav_agents.planning.guard import safe_share
+from semnav_agents.planning.guard import GUARD_REACH, GuardedBody, safe_share
 from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
 from semnav_agents.planning.perception import Perception
 from semnav_agents.planning.planner import PlannerSettings
@@ -117,7 +117,7 @@ class Finder(PlanSearcher):
     @property
     def recent(self) -> Obstacles:
         """What recent scans have shown, odometry frame."""
-        return self._perception.obstacles[0]
+        return self._perception.obstacles(0)
 
     def obstacles(self, observation: Observation) -> Obstacles:
         """What is known to stand around, odometry frame."""
@@ -150,8 +150,8 @@ class Finder(PlanSearcher):
     ) -> NDArray[np.float32]:
         """The action that turns on the spot, slower or not at all where the body would touch."""
         robot = self._pilot.robot
-        near = obstacles.near(pose, 1.5 * robot.length)
-        share = safe_share(near, (0.0, 0.0, yaw_rate), velocity, robot)
+        near = obstacles.near(pose, GUARD_REACH * robot.length)
+        share = safe_share(near, (0.0, 0.0, yaw_rate), velocity, GuardedBody.of(robot))
         return shares_of((0.0, 0.0, share * yaw_rate), robot)
 
     def _current_task(self, observation: Observation) -> FindingTask | None:
