@@ -17,7 +17,7 @@ from semnav_features.frames import Pose, compose, relative
 from semnav_features.lidar_spec import LidarSpec
 
 MOST_VOICES = 16
-"""Rows of the entry; of more answers the latest ones count."""
+"""Rows of the entry; of more answers those of the people who answered first are left out."""
 
 COLUMNS = ("is_there", "person", "x", "y", "cosine", "sine", "std")
 """Columns of a row: whether it counts, number of the speaker, where the answer was heard and its

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.assistance.door_intent import INTENT_DISTANCE, DoorIntent, first_door
+from semnav_agents.planning.door_aims import SAME_DOOR_DISTANCE
 from semnav_agents.planning.doorway import target_behind
 from semnav_agents.planning.driver import Driver
 from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
@@ -26,9 +27,6 @@ the robot lets go."""
 IN_DOORWAY, PASSED_DISTANCE = 0.8, 0.6
 """Distance of the centre from the line of a door at which the body is in it: then only stopping or
 backing means something else; and distance behind it at which the door is passed, metres."""
-
-SAME_DOOR_DISTANCE = 0.5
-"""Distance of their middles below which two doors are the same, metres: a door is wider."""
 
 LEAST_FORWARD, MEANT_FORWARD = 0.05, 0.15
 """Shares of the largest speed from which a driver drives forward; and from which a driver means a

@@ -64,8 +64,8 @@ class BarrierPlanner:
             target: where to go.
             barriers: points, metres, shape (m, 2).
             settings: the planner's.
-            insists: whether no other way is taken than one around barriers, or a part of it; None
-                where that is too long.
+            insists: whether no way through a barrier is taken; then only a part of one around them
+                may be, and the answer is None where that is too long or misses the gate.
         """
 
         def among(*solid: FloatArray) -> PlannedPath:

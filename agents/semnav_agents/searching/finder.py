@@ -60,11 +60,11 @@ from semnav_features.frames import FloatArray, Point, Pose, Twist, compose, poin
 ALONE = np.zeros(1, np.int64)
 """The number of the only robot that a `Finder` drives."""
 
-NEAR = 3.0
+RECENT_SCAN_DISTANCE = 3.0
 """Distance within which obstacles are those of recent scans, metres: there the map of the whole
 house is off by the drift since it was made."""
 
-TOUCHING = 1.0
+PRESENT_SCAN_DISTANCE = 1.0
 """Distance within which hits of the present scan count by themselves, metres: what is remembered is
 a mean, which lags behind the drift."""
 
@@ -123,10 +123,12 @@ class Finder(PlanSearcher):
         """What is known to stand around, odometry frame."""
         pose, _ = read_odometry(observation)
         here, house = np.array(pose[:2]), self._points(observation, pose)
-        beyond = np.hypot(*(house - here).T) > NEAR
+        beyond = np.hypot(*(house - here).T) > RECENT_SCAN_DISTANCE
         ranges = observation["scan"].astype(np.float64)
         eye = compose(pose, self._pilot.robot.lidar_mount)
-        hits = points_to_parent(eye, (ranges[:, None] * self._beams)[ranges < TOUCHING])
+        hits = points_to_parent(
+            eye, (ranges[:, None] * self._beams)[ranges < PRESENT_SCAN_DISTANCE]
+        )
         sure = np.vstack((house[beyond], self._unseen, hits))
         known = JoinedObstacles((self.recent, as_obstacles(sure)))
         return with_felt_walls(known, observation, pose)

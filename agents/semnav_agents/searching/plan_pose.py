@@ -16,13 +16,13 @@ from semnav_features.frames import (
     wrap_angle,
 )
 
-EVERY = 5
+CORRECTION_PERIOD = 5
 """Control periods between two corrections."""
 
-FARTHEST = 6.0
+MAX_HIT_RANGE = 6.0
 """Largest range of a hit that counts, metres: farther off a small turn is a large error."""
 
-GATE = 0.08
+MAX_WALL_DISTANCE = 0.08
 """Largest distance of a hit from a wall of the plan that it is of, metres: less than the depth of
 furniture before the wall."""
 
@@ -69,10 +69,10 @@ class PlanPose:
             ranges: of the present scan, metres, shape (m,).
         """
         pose = compose(self._frame, odometry)
-        if self._steps % EVERY == 0:
+        if self._steps % CORRECTION_PERIOD == 0:
             counted = np.zeros(len(ranges), np.bool_)
             counted[::BEAM_STEP] = True
-            counted &= (ranges > 0.0) & (ranges < FARTHEST)
+            counted &= (ranges > 0.0) & (ranges < MAX_HIT_RANGE)
             hits = points_to_parent(self._mount, (ranges[:, None] * self._beams)[counted])
             pose = fitted_to_walls(
                 pose, hits, self._walls, drift_of(relative(self._last, odometry))
@@ -114,7 +114,7 @@ def fitted_to_walls(pose: Pose, hits: FloatArray, walls: FloatArray, drift: Pose
     away = np.where((foot > 0.0) & (foot < lengths), np.abs(aside), np.inf)
     nearest = np.argmin(away, axis=1)
     every = np.arange(len(points))
-    near = away[every, nearest] < GATE
+    near = away[every, nearest] < MAX_WALL_DISTANCE
     if np.count_nonzero(near) < LEAST_HITS:
         return pose
     normal, error = normals[nearest[near]], aside[every[near], nearest[near]]

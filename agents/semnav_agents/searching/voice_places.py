@@ -20,7 +20,7 @@ ENOUGH_STD = 0.5
 """Standard deviation of a place of a speaker, in its least certain direction, with which the robot
 is content, metres: from there on it looks."""
 
-MOST_PLACES = 4
+MOST_LISTENING_PLACES = 4
 """Places from which a voice is listened to."""
 
 LISTENING_STEPS = 90
@@ -60,7 +60,7 @@ class VoicePlaces:
             self._known, self._target = len(voices), None
         if self._target is not None and self._is_heard_out(pose):
             self._target = None
-        if self._target is None and voices and len(self._tried) < MOST_PLACES:
+        if self._target is None and voices and len(self._tried) < MOST_LISTENING_PLACES:
             self._target = self._choose(pose, voices)
             self._tried.append(pose[:2] if self._target is None else self._target[:2])
             self._stood = self._driven = 0

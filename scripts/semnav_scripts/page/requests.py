@@ -27,7 +27,7 @@ OWN = "own"
 """The floor plan on the visitor's drawing board."""
 
 MAX_BOXES = 8
-"""The most boxes that can be put into a scene."""
+"""The most boxes in a scene; and the most boxes, and people, that come into one run."""
 
 AGENTS = ("scripted", "oracle", "drive", "listener", "listener_drives", "blind", "random")
 """Agents that the page offers. Only these: the name of an agent may load code from anywhere."""

@@ -277,7 +277,7 @@ function zoom(factor) {
   redraw();
 }
 
-/** Draw soon, once for all that has changed by then; a click means the right place before, too. */
+/** Draw soon, once for all that has changed by then; look there at once, for a click may come before. */
 function redraw() {
   if (!scene) return;
   camera.lookAt(hand.cross ?? (board.open ? camera.centre : moment?.pose ?? scene.start));
