@@ -435,7 +435,7 @@ ITEMS = (
         "somebody in another room who answers: heard, met, error of the place by voice alone in m",
         "no figure",
         "{}, {} met; {} (median)",
-        "python -m studies voices",
+        "python -m studies voices --houses 12",
         tuple(
             [
                 Figure("lab/search_and_rescue.md", (eyes,), column)
@@ -470,7 +470,7 @@ ITEMS = (
             f"shut doors of {kind} in clouds, from the poses of A and B: both jambs found",
             "no figure",
             "{}, with the 2D lidar {}",
-            "python -m studies clouds --shut",
+            "python -m studies clouds --shut --scenes 20",
             tuple(
                 [
                     Figure("lab/point_clouds.md", (name,), kind)
