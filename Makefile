@@ -72,7 +72,8 @@ WIRES ?=
 ros: $(VENV)/.test
 	.ci/debian python3-rospy python3-rosmaster python3-sensor-msgs python3-nav-msgs \
 	  python3-visualization-msgs python3-tf2-msgs python3-move-base-msgs python3-roslaunch python3-rosbag
-	-$(PYTHON) -m venv build/ros2 && build/ros2/bin/pip install -q -c constraints.txt $(RCLPY)
+	$(PYTHON) -m venv build/ros2 && timeout -k 10 300 build/ros2/bin/pip install -q --retries 1 \
+	  -c constraints.txt $(RCLPY) || rm -rf build/ros2
 	$(BIN)/python -m pytest tests/ros/test_wires.py tests/ros/test_launch_files.py -k "$(WIRES)"
 
 lint: $(VENV)/.test

@@ -228,7 +228,7 @@ def test_roslaunch_brings_the_node_and_a_simulated_robot_to_a_verdict(start):
     words = ("-p", str(PORT), "semnav", "simulated.launch", "speed:=2")
     launch = start(*words, program=(str(ROSLAUNCH),))
     try:
-        said, _ = launch.communicate(timeout=150)
+        said, _ = launch.communicate(timeout=PATIENCE)
     finally:
         launch.terminate()  # and what it has started, if it still runs
     assert '"verdicts": ["done"]' in said
@@ -277,7 +277,7 @@ def test_the_doors_of_a_played_bag_are_believed_where_they_are(start, master, tm
     listener = start("-c", LISTENER, program=(sys.executable,))
     assert listener.stdout.readline() == "listening\n"
     start("play", "--wait-for-subscribers", "--quiet", str(bag), program=(str(ROSBAG),))
-    said, _ = listener.communicate(timeout=100)
+    said, _ = listener.communicate(timeout=PATIENCE)
     doors = np.array(json.loads(said.splitlines()[-1])["doors"])
     believed = points_to_parent(START, doors.reshape(-1, 2, 2).mean(axis=1))
     true = np.array([door.midpoint for door in load_floor_plan("heidelberg_hallway").doors])
