@@ -61,7 +61,12 @@ class SwingingDoors:
             ValueError: none of the leaves is that door's.
         """
         names = [leaf.door for leaf in self.leaves]
-        require(door in names, "door", door, f"one of {', '.join(names)}")
+        require(
+            door in names,
+            "door",
+            door,
+            f"one of those with a leaf that can swing: {', '.join(names) or 'there is none'}",
+        )
         i = names.index(door)
         self._closing[i], self._held[i], self._wait[i] = shut, True, 0.0
 

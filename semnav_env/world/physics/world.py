@@ -243,7 +243,7 @@ class World:
             RuntimeError: before the first `reset`.
         """
         place = _point(place, "person")
-        self._where_things_move("added").add_person(place, self.pose)
+        self._where_things_move("added", "by_hand=8").add_person(place, self.pose)
         self._movers.add_person()
         self._note_by_hand("add_person", place)
 
@@ -260,7 +260,7 @@ class World:
             RuntimeError: before the first `reset`.
         """
         middle = _point(middle, "box")
-        self._where_things_move("added").add_box(middle, self.pose)
+        self._where_things_move("added", "by_hand=8").add_box(middle, self.pose)
         self._movers.add_box(box_corners(middle))
         self._note_by_hand("add_box", middle)
 
@@ -275,13 +275,16 @@ class World:
             ValueError: no such leaf.
             RuntimeError: before the first `reset`.
         """
-        self._where_things_move("shut").doors.hold(door, shut)
+        self._where_things_move("shut", "changing_doors=0.3").doors.hold(door, shut)
         self._note_by_hand("hold_door", door, shut)
 
-    def _where_things_move(self, done: str) -> Moving:
+    def _where_things_move(self, done: str, setting: str) -> Moving:
         self._require_reset()
         if self.moving is None:
-            raise ValueError(f"nothing can be {done} in this world, where only the robot moves")
+            raise ValueError(
+                f"nothing can be {done} in this world, where only the robot moves; "
+                f"give dynamics=Dynamics({setting})"
+            )
         return self.moving
 
     def _note_by_hand(self, method: str, *values: Any) -> None:
