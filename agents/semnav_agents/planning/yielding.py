@@ -27,7 +27,7 @@ stands, m/s and rad/s: somebody who stands before it for five seconds cannot go 
 
 INSISTING_SHARE, INSISTING_STEPS = 0.15, 45
 """Share of its velocity with which a robot creeps on in a jam, and for how many steps: people make
-room for it. In each second jam it backs off instead."""
+room for it. In every second jam it backs off instead."""
 
 AMONG_PEOPLE_STEPS = 150
 """Steps after something moved in view for which a robot counts as among people."""

@@ -145,7 +145,7 @@ class Explorer:
         self._steps += 1
 
     def _points(self, observation: Observation, pose: Pose) -> FloatArray:
-        """All obstacle points, odom frame, shape (n, 2)."""
+        """All obstacle points, in the frame of `pose`, shape (n, 2)."""
         bumps = table(observation, "bumps").reshape(-1, 2).astype(np.float64)
         points = [self._remembered, self._unseen]
         if len(bumps):
