@@ -67,7 +67,7 @@ class VoicePlaces:
         return self._target
 
     def _is_heard_out(self, pose: Pose) -> bool:
-        """Whether the robot has stood there for a whole call, or tried to get there for too long."""
+        """Whether the robot has stood there for a whole call, or tried too long to get there."""
         assert self._target is not None
         settings = self._chart.settings
         there = math.dist(pose[:2], self._target[:2]) < settings.position_tolerance
