@@ -297,7 +297,7 @@ class Driver:
             points, start, target, barriers, self.planner, self._is_among_people()
         )
         if path is None:
-            self._track, self._wait = None, self.retry_after
+            self.path, self._track, self._wait = None, None, self.retry_after
             return
         self.path = path if kept is None else joined(kept, path)
         self._target, self._progress, self._shift = target, PathProgress(), ORIGIN

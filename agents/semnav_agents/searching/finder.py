@@ -125,10 +125,9 @@ class Finder(PlanSearcher):
         here, house = np.array(pose[:2]), self._points(observation, pose)
         beyond = np.hypot(*(house - here).T) > RECENT_SCAN_DISTANCE
         ranges = observation["scan"].astype(np.float64)
+        near = (ranges > 0.0) & (ranges < PRESENT_SCAN_DISTANCE)
         eye = compose(pose, self._pilot.robot.lidar_mount)
-        hits = points_to_parent(
-            eye, (ranges[:, None] * self._beams)[ranges < PRESENT_SCAN_DISTANCE]
-        )
+        hits = points_to_parent(eye, ranges[near, None] * self._beams[near])
         sure = np.vstack((house[beyond], self._unseen, hits))
         known = JoinedObstacles((self.recent, as_obstacles(sure)))
         return with_felt_walls(known, observation, pose)
