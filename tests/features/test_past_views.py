@@ -10,7 +10,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from semnav_features.frames import FloatArray
-from semnav_features.kernels.memory import MIN_SHORT_WALL_SIGHTINGS
 from semnav_features.kernels.past_views import (
     FREE,
     HIDDEN,
@@ -31,7 +30,6 @@ from tests.support.remembering import ANGLES, Ends, beams_that_end_at, see
 SHORT: Ends = (0.3, 2.0, -0.3, 2.0)
 LONG: Ends = (1.0, 2.0, -1.0, 2.0)
 GAP: Ends = (0.5, 2.0, -0.5, 2.0)
-LONG_APART: Ends = (4.0, 5.0, 2.0, 5.0)
 IN_LINE: Ends = (1.0, 2.0, -2.0, 2.0)
 
 
@@ -102,18 +100,8 @@ def test_what_comes_out_from_behind_something_is_no_wall_before_a_view_has_shown
     see(memory, ranges=beams_that_end_at(1.0))
     see(memory, walls=[SHORT], ranges=beams_that_end_at(2.0), scans=3)
     assert memory.size[0] == 0
-    see(memory, walls=[SHORT], ranges=beams_that_end_at(2.0), scans=12)
+    see(memory, walls=[SHORT], ranges=beams_that_end_at(2.0), scans=8)
     assert memory.size[0] == 1
-
-
-def test_a_short_wall_counts_when_it_has_stood_longer_than_somebody_who_walks() -> None:
-    memory = SceneMemory()
-    see(memory, walls=[SHORT, LONG_APART], scans=2)
-    assert memory.size[0] == 1
-    see(memory, walls=[SHORT, LONG_APART], scans=MIN_SHORT_WALL_SIGHTINGS - 3)
-    assert memory.size[0] == 1
-    see(memory, walls=[SHORT, LONG_APART])
-    assert memory.size[0] == 2
 
 
 def a_wall_with_an_open_end() -> FloatArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -46,6 +46,9 @@ LOOKAHEAD = 4.0
 EVASION_LENGTH = 1.5
 """Length by which a path around what moves may exceed what `detour` allows, metres: the robot may
 have to get clear first."""
+
+REVERSE_AMONG_PEOPLE = 8.0
+"""`PlannerSettings.reverse` among people: whoever walks behind a robot is not seen."""
 
 
 @dataclass
@@ -293,9 +296,10 @@ class Driver:
         kept = self._path_to_stop(points, pose, velocity)
         start = pose if kept is None else kept.end
         self.plans += 1
-        path = self._barriers.path(
-            points, start, target, barriers, self.planner, self._is_among_people()
-        )
+        among_people, settings = self._is_among_people(), self.planner
+        if among_people:
+            settings = replace(settings, reverse=REVERSE_AMONG_PEOPLE)
+        path = self._barriers.path(points, start, target, barriers, settings, among_people)
         if path is None:
             self.path, self._track, self._wait = None, None, self.retry_after
             return

@@ -91,7 +91,7 @@ class PlannerSettings:
     widest: Length = 64.0
     speed: Annotated[float, Bounds(0.01, 10.0, "m/s")] = 1.0
     turn_rate: Annotated[float, Bounds(0.01, 20.0, "rad/s")] = 0.8
-    reverse: Price = 8.0
+    reverse: Price = 3.0
     stop: Price = 0.4
     steering: Price = 0.1
     room: Length = 0.25

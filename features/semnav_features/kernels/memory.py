@@ -55,10 +55,6 @@ metres; shape (1,)."""
 MIN_WALL_SIGHTINGS = 2
 """A wall counts from this many sightings on."""
 
-SHORT_WALL, MIN_SHORT_WALL_SIGHTINGS = 0.8, 8
-"""A wall shorter than this, metres, counts from this many sightings on: it may be somebody who
-walks, and stays in one place for less than half a second."""
-
 MAX_WEIGHING_SIGHTINGS = 10
 """Older sightings together weigh no more than this many: odometry drifts."""
 
@@ -343,7 +339,7 @@ def how_many_count(memory: Memory) -> tuple[int, int]:
     used = state[0]
     wall_total, door_total = 0, 0
     for k in range(used.walls):
-        wall_total += wall_counts(walls, k)
+        wall_total += walls[HITS, k] >= MIN_WALL_SIGHTINGS
     for k in range(used.doors):
         door_total += door_counts(doors[: used.doors], k, used)
     return wall_total, door_total
@@ -363,7 +359,7 @@ def what_counts(memory: Memory) -> tuple[FloatArray, FloatArray, FloatArray]:
     beliefs = np.empty((used.doors, 2))
     n = m = 0
     for k in range(used.walls):
-        if wall_counts(walls, k):
+        if walls[HITS, k] >= MIN_WALL_SIGHTINGS:
             put_row(wall_ends, n, ends_of_wall(walls, k))
             n += 1
     for k in range(used.doors):
@@ -373,14 +369,6 @@ def what_counts(memory: Memory) -> tuple[FloatArray, FloatArray, FloatArray]:
             put_row(beliefs, m, (door.log_odds, float(door.hits)))
             m += 1
     return wall_ends[:n], door_ends[:m], beliefs[:m]
-
-
-@kernel
-def wall_counts(walls: FloatArray, k: int) -> bool:
-    """Whether remembered wall `k` was seen often enough to count."""
-    x, y, x2, y2 = ends_of_wall(walls, k)
-    is_short = (x2 - x) ** 2 + (y2 - y) ** 2 < SHORT_WALL**2
-    return bool(walls[HITS, k] >= (MIN_SHORT_WALL_SIGHTINGS if is_short else MIN_WALL_SIGHTINGS))
 
 
 @kernel
