@@ -9,8 +9,8 @@ from semnav_agents.hearing.network import NetworkShape
 from semnav_features.checked_fields import Bounds, Count, OneOf, Share, check_fields
 
 SampleDriver: TypeAlias = Annotated[str, OneOf(("scripted", "planner", "policy"))]
-"""Who drives while samples are collected: the scripted agent to the environment's goals, or to the
-learner's goals its planner or the bundled policy `drive`."""
+"""Who drives while samples are collected. The scripted agent drives to the environment's goals; the
+planner and the bundled policy `drive` drive to the goals of the learner."""
 
 
 @dataclass(frozen=True)
