@@ -35,6 +35,7 @@ from semnav_env.mind.belief.understand import (
 from semnav_env.mind.grounding.clause_progress import (
     CLAUSE_DONE,
     CLAUSE_PROGRESS,
+    NO_NEARER,
     ON_WAY,
     goal_bytes,
     put_goal,
@@ -266,7 +267,7 @@ class BeliefTracker:
             follower.start(self.scene(), pose)
         else:
             follower.think(events, self.scene, pose)
-            looked = bool(events & (CLAUSE_DONE | LOOK_DUE))
+            looked = bool(events & (CLAUSE_DONE | LOOK_DUE | NO_NEARER))
             if looked and not events & CLAUSE_DONE:
                 follower.look(self.scene(), pose)
         if looked:

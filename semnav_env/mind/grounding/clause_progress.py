@@ -18,9 +18,14 @@ from semnav_env.mind.grounding.ways import WAY_SPACING
 from semnav_features.frames import Pose, to_local
 from semnav_features.kernels.compiling import kernel
 
-CLAUSE_DONE, TRAIL_DUE, ON_WAY = 1, 2, 4
+CLAUSE_DONE, TRAIL_DUE, ON_WAY, NO_NEARER = 1, 2, 4, 32
 """Events, as bits: the current clause is completed; the robot is `WAY_SPACING` from the last
-place of its trail; the goal lies on a known way, so that what to head for changes as one drives."""
+place of its trail; the goal lies on a known way, so that what to head for changes as one drives;
+the robot stands still beside a lookout point, to which it can come no nearer."""
+
+STANDS_BESIDE, STANDS_FOR = 1.0, 3.0
+"""Largest distance from a lookout point, metres, at which a robot that stands still for so many
+seconds can come no nearer: a wall, or furniture, leaves its body no room there."""
 
 NO_TRAIL = math.nan, math.nan
 """Last place of a trail that is not kept: no distance from it is ever large enough to note."""
@@ -66,7 +71,7 @@ Written by `note_pose`:
     still: for how long the robot has stopped, seconds.
     last: where it was last.
     farthest, farthest_along: the place at which it was farthest along the heading of `ahead`, and
-        how far that is, metres.
+        how far that is, metres; a lookout point to which it could come no nearer counts.
     looked_back: whether it has looked along `ahead` since the clause began.
 
 Written where an event calls for it:
@@ -80,6 +85,7 @@ _FARTHEST_FORMAT = Struct("=5d")
 """The fields `farthest` and `ahead` of a `CLAUSE_PROGRESS`, which lie side by side."""
 
 _PASS, _REACH, _STOP = int(GoalKind.PASS), int(GoalKind.REACH), int(GoalKind.STOP)
+_SEEK = int(GoalKind.SEEK)
 
 
 def put_goal(record: np.ndarray, field: str, goal: Goal) -> None:
@@ -144,6 +150,8 @@ def note_pose(progress: np.ndarray, pose: Pose, speed: float, seconds: float) ->
         events |= CLAUSE_DONE
     if math.hypot(x - entry.trail[0], y - entry.trail[1]) >= WAY_SPACING:
         events |= TRAIL_DUE
+    if entry.goal.kind == _SEEK and _comes_no_nearer(entry, x, y, seconds):
+        events |= NO_NEARER
     entry.last[0], entry.last[1] = x, y
     ahead = (entry.ahead[0], entry.ahead[1], entry.ahead[2])
     along = to_local(ahead, (x, y))[0]
@@ -152,6 +160,15 @@ def note_pose(progress: np.ndarray, pose: Pose, speed: float, seconds: float) ->
     if entry.is_behind and looks_along(pose, ahead[2], entry.inspection_angle):
         entry.looked_back = True
     return events
+
+
+@kernel
+def _comes_no_nearer(entry: Any, x: float, y: float, seconds: float) -> bool:
+    """Whether the robot has now stood beside its goal for `STANDS_FOR`, or a multiple of it."""
+    periods = math.floor(entry.still / STANDS_FOR)
+    if periods == 0.0 or math.floor((entry.still - seconds) / STANDS_FOR) == periods:
+        return False
+    return math.hypot(entry.goal.pose[0] - x, entry.goal.pose[1] - y) < STANDS_BESIDE
 
 
 @kernel

@@ -24,6 +24,7 @@ from semnav_env.mind.grounding.clause_order import (
 from semnav_env.mind.grounding.clause_progress import (
     CLAUSE_DONE,
     CLAUSE_PROGRESS,
+    NO_NEARER,
     NO_TRAIL,
     TRAIL_DUE,
     farthest_view,
@@ -132,7 +133,17 @@ class Follower:
         if events & TRAIL_DUE:
             self._trail.note(pose)
             self._write(trail=self._trail.end)
+        if events & NO_NEARER:
+            self._take_as_looked_from(self.goal.pose)
         return bool(events & CLAUSE_DONE) and self._begin_next(scene(), pose)
+
+    def _take_as_looked_from(self, lookout: Pose) -> None:
+        """Go on as if the robot had reached a lookout point: what it leaves unseen stays so."""
+        self._lookouts += (lookout,)
+        ahead = tuple(self.progress["ahead"][0].tolist())
+        along = to_local(ahead, lookout[:2])[0]
+        if along > self.progress["farthest_along"][0]:
+            self._write(farthest=lookout[:2], farthest_along=along)
 
     def target(self, pose: Pose) -> Goal:
         """The target of a robot at a pose: the goal of the clause, or the next place on its way."""

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from semnav_env.language import parse
 from semnav_env.mind.grounding import GroundingError, PassGoal, ReachGoal, SeekGoal, ground
+from semnav_env.mind.grounding.follower import Follower
 from semnav_features.scene import Scene, Wall
 from tests.support.grounded import DOORS, START, clause, middle
 from tests.support.hand_made import L_LEFT, corridor
@@ -80,3 +83,23 @@ def test_a_hidden_stretch_is_approached_before_a_door_is_taken() -> None:
         12.7: PassGoal,
         13.2: PassGoal,
     }
+
+
+@pytest.mark.parametrize(
+    ("stands_at", "seconds", "goes_on"), [(12.3, 2.9, False), (12.3, 3.1, True), (11.5, 9.0, False)]
+)
+def test_a_place_that_cannot_be_reached_counts_as_looked_from_after_standing_beside_it(
+    stands_at: float, seconds: float, goes_on: bool
+) -> None:
+    """A wall at a slant leaves no room to come within half a metre of the lookout point."""
+    follower = Follower(parse("go through the last door on the left"))
+    follower.start(DOORS, START)
+    for x in np.arange(0.0, stands_at + 0.05, 0.1):
+        follower.advance(lambda: DOORS, (x, 0.0, 0.0), 1.0, 0.1)
+        follower.look(DOORS, (x, 0.0, 0.0))
+    assert isinstance(follower.goal, SeekGoal)
+    for _ in range(round(seconds / 0.1)):
+        follower.advance(lambda: DOORS, (x, 0.0, 0.0), 0.0, 0.1)
+    for _ in range(2):  # it stays known
+        follower.look(DOORS, (x, 0.0, 0.0))
+        assert isinstance(follower.goal, PassGoal) is goes_on
