@@ -25,6 +25,7 @@ from semnav_agents.planning.planner import DriveTarget
 from semnav_env.approach import DoorSide
 from semnav_env.language.clauses import Speed
 from semnav_env.mind.grounding import GoalKind
+from semnav_env.mind.grounding.niches import MOST_ASIDE, NICHE_DEPTH
 from semnav_env.mind.observations import SeenGoal
 from semnav_env.robots import RobotSpec
 from semnav_env.robots.actions import shares_of
@@ -161,12 +162,31 @@ def sign(value: float) -> float:
 
 
 def _other_doors(doors: FloatArray, goal: SeenGoal) -> FloatArray:
-    """The doors that are not the goal's."""
+    """The doors that are not the goal's, nor the mouth of the niche at whose back it lies."""
     if goal.door is None:
         return doors
-    middles = (doors[:, :2] + doors[:, 2:]) / 2 - np.mean(goal.door, axis=0)
-    others: FloatArray = doors[np.hypot(*middles.T) > SAME_DOOR_DISTANCE]
-    return others
+    middles = (doors[:, :2] + doors[:, 2:]) / 2
+    from_goal = middles - np.mean(goal.door, axis=0)
+    others = np.hypot(*from_goal.T) > SAME_DOOR_DISTANCE
+    if goal.kind is GoalKind.PASS:
+        others &= ~_is_mouth(middles, from_goal, goal.pose[2])
+    kept: FloatArray = doors[others]
+    return kept
+
+
+def _is_mouth(middles: FloatArray, from_goal: FloatArray, heading: float) -> NDArray[np.bool_]:
+    """Whether each door lies between the robot and the goal's door, on the axis of that one.
+
+    Args:
+        middles: of the doors, robot frame, metres, shape (m, 2).
+        from_goal: the same, seen from the middle of the goal's door.
+        heading: through that door, radians.
+    """
+    axis = np.array((math.cos(heading), math.sin(heading)))
+    behind, aside = from_goal @ axis, np.abs(from_goal @ (-axis[1], axis[0]))
+    between = (middles @ axis > 0.0) & (behind < 0.0) & (behind > -NICHE_DEPTH)
+    is_mouth: NDArray[np.bool_] = between & (aside < MOST_ASIDE)
+    return is_mouth
 
 
 def _side(goal: SeenGoal, pose: Pose) -> DoorSide | None:
