@@ -76,3 +76,16 @@ def expect_verdict(page: Any, words: str | re.Pattern[str]) -> None:
 def seconds(page: Any) -> float:
     """What the clock of the run shows."""
     return float(page.inner_text("#clock").split()[0])
+
+
+def painted(page: Any) -> str:
+    """The picture of the plan, once nothing more is to be drawn."""
+    drawn = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+    page.evaluate(drawn)
+    return str(page.evaluate("document.getElementById('canvas').toDataURL()"))
+
+
+def becomes(page: Any, picture: str, same: bool) -> None:
+    """Wait until the picture of the plan is this one, or another one."""
+    seen = "document.getElementById('canvas').toDataURL() === picture"
+    page.wait_for_function(f"([picture, same]) => ({seen}) === same", arg=[picture, same])

@@ -287,8 +287,9 @@ class World:
     def place_robot(self, pose: Pose) -> None:
         """Carry the robot to another place by hand, where it stands at rest.
 
-        Odometry feels it, as that of a camera would: the next control period adds the way there,
-        as if it were driven straight. Judge and belief take it so, too.
+        Odometry feels it, as visual odometry would, so that what the robot remembers stays true:
+        the next control period adds the way there, as if it were driven straight. Judge and belief
+        take it so, too.
 
         Args:
             pose: of the footprint's centre, world frame.

@@ -90,6 +90,7 @@ def place_robot(page):
 def test_the_robot_is_carried_in_a_run_that_goes_on(page):
     """The scene stays as it is, and so does the link."""
     drive_and_pause(page)
+    page.wait_for_timeout(300)  # the last picture before the pause may be under way
     before, start, link = seconds(page), page.input_value("#start"), page.url
     place_robot(page)
     expect_verdict(page, "The robot is carried there.")

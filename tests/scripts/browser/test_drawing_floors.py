@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.support.page_in_browser import expect, expect_verdict, hurry, say
+from tests.support.page_in_browser import becomes, expect, expect_verdict, hurry, painted, say
 from tests.support.page_visitor import WALLS
 
 
@@ -56,6 +56,10 @@ def test_a_map_is_drawn_on_saved_and_driven_in(page):
     expect(page.locator("#board-said")).to_contain_text("0 rooms")
     page.click("#redo")
     expect(page.locator("#board-said")).to_contain_text("1 rooms")
+    draw(page, "erase", (5.0, 4.0))
+    expect(page.locator("#board-said")).to_contain_text("0 rooms")
+    page.click("#undo")
+    expect(page.locator("#board-said")).to_contain_text("1 rooms")
     page.click("#check")
     expect(page.locator("#board-said")).to_have_text("Nothing is wrong with it.")
     with page.expect_download() as download:
@@ -91,3 +95,12 @@ def test_a_door_is_drawn_by_the_keyboard_alone(page):
     for key in ("ArrowRight", "Enter", "Shift+ArrowUp", "Alt+ArrowUp", "Enter"):
         page.keyboard.press(key)
     expect(page.locator("#undo")).to_be_enabled()
+
+
+def test_the_view_of_the_board_is_moved(page):
+    page.click("#open-board")
+    expect(page.locator("#draw")).to_be_visible()
+    page.click("#nearer")
+    before = painted(page)
+    draw(page, "view", (4.0, 2.5), (2.0, 2.5))
+    becomes(page, before, False)

@@ -16,6 +16,8 @@ def test_a_run_is_looked_at_again(driven):
     driven.fill("#moment", "0")
     expect(driven.locator("#back")).to_be_disabled()
     expect(driven.locator("#clauses li")).to_have_class("active")
+    driven.click("#forth")
+    expect(driven.locator("#back")).to_be_enabled()
     driven.select_option("#speed", "0.25")
     driven.click("#play")
     expect(driven.locator("#play")).to_have_text("Halt")
