@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from semnav_scripts.page.listening import listening
-from tests.support.chromium import playwright_or_skip
+from tests.support.chromium import PATIENCE, playwright_or_skip
 
 uvicorn = pytest.importorskip("uvicorn", reason='needs pip install "semnav-env[serve]"')
 expect = playwright_or_skip().expect
@@ -87,5 +87,8 @@ def painted(page: Any) -> str:
 
 def becomes(page: Any, picture: str, same: bool) -> None:
     """Wait until the picture of the plan is this one, or another one."""
-    seen = "document.getElementById('canvas').toDataURL() === picture"
-    page.wait_for_function(f"([picture, same]) => ({seen}) === same", arg=[picture, same])
+    for _ in range(PATIENCE // 100):  # the page's policy forbids `wait_for_function`
+        if (painted(page) == picture) is same:
+            return
+        page.wait_for_timeout(100)
+    raise AssertionError("the picture of the plan is " + ("another one" if same else "the same"))
