@@ -88,12 +88,11 @@ docs: $(VENV)/.docs
 
 # Both pages in a real browser, Debian's. Where browser or driver cannot be installed, the tests skip, and
 # say why; pytest's code 5 means that all of them did.
-PAGES := tests/scripts/test_page_in_browser.py tests/scripts/test_report_in_browser.py
 browser: $(VENV)/.test
 	.ci/debian chromium
 	timeout -k 10 300 $(BIN)/pip install -q --retries 1 -c constraints.txt playwright \
 	  axe-playwright-python || echo "Playwright and axe cannot be installed"
-	$(BIN)/python -m pytest $(PAGES) || test $$? -eq 5
+	$(BIN)/python -m pytest tests/scripts/browser || test $$? -eq 5
 
 $(VENV)/.demo: pyproject.toml constraints.txt
 	$(PYTHON) -m venv $(VENV)

@@ -26,6 +26,9 @@ FAREWELL = 2.0
 """How long a robot goes on after its episode, seconds: its node may believe later than the judge
 that a command is done."""
 
+PATIENCE = 30.0
+"""How long a robot in lockstep waits for the answer to a scan, seconds."""
+
 OVERRULED = 0.2
 """Time for which a velocity on the topic goes before those of the robot's navigator, seconds."""
 
@@ -39,7 +42,8 @@ class RobotShell:
         robot: the robot.
         wire: what carries its messages.
         topics: their names and qualities, as the node's.
-        speed: simulated seconds a second.
+        speed: simulated seconds a second, at most.
+        lockstep: whether simulated time stands still until the node has answered a scan.
         navigator: drives the robot to the goals that it is given, unless velocities are heard.
         server: tells what becomes of these goals.
 
@@ -54,11 +58,13 @@ class RobotShell:
         wire: Wire,
         topics: NodeTopics = NodeTopics(),
         speed: float = 1.0,
+        lockstep: bool = False,
         navigator: SimulatedNavigator | None = None,
         server: NavigatorServer | None = None,
     ) -> None:
         self._navigator, self._server = navigator, server
         self._robot, self._wire, self._topics, self._speed = robot, wire, topics, speed
+        self._lockstep, self._awaits = lockstep, False
         self._velocity: Twist = STILL
         self._unanswered: float | None = None
         self.delays: list[float] = []
@@ -86,12 +92,24 @@ class RobotShell:
             due = max(due + self._robot.period / self._speed, time.monotonic())
             while (left := due - time.monotonic()) > 0.0:
                 self._wire.wait(left)
+            if self._lockstep and self._robot.outcome is None:
+                self._wait_for_answer()
             silent = time.monotonic() - self._heard_at
             told = STILL if silent > LONGEST_SILENCE else self._velocity
             self._robot.drive(told if silent <= OVERRULED or navigated is None else navigated)
             if self._robot.outcome is not None:
                 end = min(end, due + FAREWELL)
         return self._robot.outcome
+
+    def _wait_for_answer(self) -> None:
+        """Wait until the last scan is answered.
+
+        A node that takes longer than `PATIENCE` is waited for no more until it says something.
+        """
+        end = time.monotonic() + PATIENCE
+        while self._awaits and self._unanswered is not None:
+            self._awaits = (left := end - time.monotonic()) > 0.0
+            self._wire.wait(max(left, 0.0))
 
     def _say_sensed(self) -> Twist | None:
         """Say what is sensed; returns the velocity of the navigator, if there is one."""
@@ -115,10 +133,10 @@ class RobotShell:
 
     def _listen(self, values: Values) -> None:
         self._robot.tell(values["text"])
-        self._unanswered = None
+        self._unanswered, self._awaits = None, True
 
     def _obey(self, values: Values) -> None:
         self._velocity, self._heard_at = conversions.twist_of(values), time.monotonic()
         if self._velocity != STILL and self._unanswered is not None:
             self.delays.append(self._heard_at - self._unanswered)
-        self._unanswered = None
+        self._unanswered, self._awaits = None, True

@@ -7,6 +7,7 @@ from importlib import import_module
 from typing import Any
 
 from semnav_ros.fields import Values, written
+from semnav_ros.message_types import message_type
 from semnav_ros.move_base import MOVE_BASE, MoveBaseNavigator, MoveBaseServer
 from semnav_ros.navigator import TakeGoal
 from semnav_ros.ros1_master import MasterWatch
@@ -48,17 +49,17 @@ class Ros1Wire:
         """Give each message of a topic to `take`, in `wait`."""
         put = self._waiting.add(topic, take)
         options = {"queue_size": topic.depth, "tcp_nodelay": True, "buff_size": 2**20}
-        rospy.Subscriber(topic.name, ros1_type(topic.kind), put, **options)
+        rospy.Subscriber(topic.name, message_type(topic.kind), put, **options)
 
     def announce(self, topic: Topic) -> None:
         """Say that messages of a topic will come."""
         options = {"queue_size": topic.depth, "latch": topic.latched, "tcp_nodelay": True}
-        publisher = rospy.Publisher(topic.name, ros1_type(topic.kind), **options)
+        publisher = rospy.Publisher(topic.name, message_type(topic.kind), **options)
         self._publishers[topic.name] = publisher
 
     def say(self, topic: Topic, values: Values) -> None:
         """Publish a message of a topic that was announced."""
-        message = written(topic.kind, values, lambda kind: ros1_type(kind)())
+        message = written(topic.kind, values, lambda kind: message_type(kind)())
         self._publishers[topic.name].publish(message)
 
     def listeners(self, topic: Topic) -> int:
@@ -81,9 +82,3 @@ class Ros1Wire:
         """Leave the graph."""
         self._watch.end()
         rospy.signal_shutdown("closed")
-
-
-def ros1_type(kind: str) -> Any:
-    """The class of a message, such as "sensor_msgs/LaserScan"."""
-    package, name = kind.split("/")
-    return getattr(import_module(f"{package}.msg"), name)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 import rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 from semnav_ros.fields import Values, written
+from semnav_ros.message_types import message_type
 from semnav_ros.nav2 import NAVIGATE_TO_POSE
 from semnav_ros.navigator import Navigator, NavigatorServer, TakeGoal
 from semnav_ros.topics import Topic
@@ -31,16 +31,16 @@ class Ros2Wire:
     def hear(self, topic: Topic, take: Take) -> None:
         """Give each message of a topic to `take`, in `wait`."""
         put = self._waiting.add(topic, take)
-        self._node.create_subscription(ros2_type(topic.kind), topic.name, put, _qos(topic))
+        self._node.create_subscription(message_type(topic.kind), topic.name, put, _qos(topic))
 
     def announce(self, topic: Topic) -> None:
         """Say that messages of a topic will come."""
-        publisher = self._node.create_publisher(ros2_type(topic.kind), topic.name, _qos(topic))
+        publisher = self._node.create_publisher(message_type(topic.kind), topic.name, _qos(topic))
         self._publishers[topic.name] = publisher
 
     def say(self, topic: Topic, values: Values) -> None:
         """Publish a message of a topic that was announced."""
-        message = written(topic.kind, values, lambda kind: ros2_type(kind)())
+        message = written(topic.kind, values, lambda kind: message_type(kind)())
         self._publishers[topic.name].publish(message)
 
     def listeners(self, topic: Topic) -> int:
@@ -70,12 +70,6 @@ class Ros2Wire:
         """Leave the graph."""
         self._node.destroy_node()
         rclpy.shutdown()
-
-
-def ros2_type(kind: str) -> Any:
-    """The class of a message, such as "sensor_msgs/LaserScan"."""
-    package, name = kind.split("/")
-    return getattr(import_module(f"{package}.msg"), name)
 
 
 def _qos(topic: Topic) -> QoSProfile:

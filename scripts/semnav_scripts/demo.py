@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-from tyro.conf import Positional, arg
+from tyro.conf import Positional
 
 from semnav_agents.base import Agent, steps
 from semnav_agents.evaluation.drive import recognised_impossible
@@ -18,12 +18,12 @@ from semnav_env.language.finding_clauses import FindingClause
 from semnav_env.language.language import Language
 from semnav_env.language.vocabulary.recognition import language_of_text
 from semnav_env.rendering.film import STEPS_PER_FRAME, Film
-from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.world.dynamics.social import for_json
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_scripts.arguments import parse_pose
 from semnav_scripts.asking import asking
 from semnav_scripts.display import needing_display
+from semnav_scripts.dynamics_options import NOTHING_MOVES, DynamicsOptions
 from semnav_scripts.outputs import check_file
 from semnav_scripts.progress import share_driven, tracked, work_bar
 
@@ -98,7 +98,7 @@ class Arguments:
     agent: str | None = None
     pose: str | None = None
     seed: int | None = None
-    dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
+    dynamics: DynamicsOptions = NOTHING_MOVES
     save: Path | None = None
     picture: Path | None = None
     show: bool = False

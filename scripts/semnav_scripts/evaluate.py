@@ -10,10 +10,10 @@ from dataclasses import asdict, dataclass
 from itertools import chain
 from pathlib import Path
 from statistics import fmean, median
-from typing import Annotated, Any
+from typing import Any
 
 from rich.console import Console
-from tyro.conf import Positional, arg
+from tyro.conf import Positional
 
 from semnav_agents.evaluation import (
     Extras,
@@ -36,8 +36,8 @@ from semnav_agents.learned import agent_label
 from semnav_env.judge.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.rendering.backend import load_pygame
 from semnav_env.rendering.video import check_suffix
-from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_features.lidars import TIM561, lidar_spec
+from semnav_scripts.dynamics_options import NOTHING_MOVES, DynamicsOptions
 from semnav_scripts.evaluation_tables import commands_table, headings, measures_table
 from semnav_scripts.jsonl import JsonLines
 from semnav_scripts.outputs import check_distinct, check_file, check_folder, counted
@@ -96,7 +96,7 @@ class Arguments:
     pictures: Path | None = None
     films: Path | None = None
     html: Path | None = None
-    dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
+    dynamics: DynamicsOptions = NOTHING_MOVES
     out: Path | None = None
     resume: bool = False
     json: bool = False
@@ -177,7 +177,7 @@ class Arguments:
     def _who(self, agent: str) -> dict[str, Any]:
         """Fields of every row: agent, split, body, version, rules, and what is not as usual."""
         who = agent_label(agent) | {"split": Path(self.suite).name, "robot": self.robot}
-        usual, chosen = asdict(NO_DYNAMICS), asdict(self.dynamics)
+        usual, chosen = asdict(NOTHING_MOVES), asdict(self.dynamics)
         if moved := {name: value for name, value in chosen.items() if value != usual[name]}:
             who |= {"dynamics": moved}
         if self.lidar != TIM561.name:

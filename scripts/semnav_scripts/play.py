@@ -6,9 +6,8 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
 
-from tyro.conf import Positional, arg
+from tyro.conf import Positional
 
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes.files import PLAN_SUFFIX
@@ -16,11 +15,11 @@ from semnav_env.language import Command, parse
 from semnav_env.language.vocabulary.recognition import language_of_text
 from semnav_env.rendering.backend import load_pygame
 from semnav_env.rules import Rules, SuccessRules
-from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
 from semnav_env.world.maps import FloorPlan, load_floor_plan
 from semnav_scripts.arguments import OptionalText, parse_pose
 from semnav_scripts.asking import asking
 from semnav_scripts.display import needing_display
+from semnav_scripts.dynamics_options import NOTHING_MOVES, DynamicsOptions
 from semnav_scripts.outputs import check_folder
 from semnav_scripts.playing.game import Game, described
 from semnav_scripts.playing.kept_runs import EPISODES, check_new, keep_runs
@@ -66,7 +65,7 @@ class Arguments:
     pose: OptionalText = None
     seed: int = 0
     assist: bool = False
-    dynamics: Annotated[Dynamics, arg(name="")] = NO_DYNAMICS
+    dynamics: DynamicsOptions = NOTHING_MOVES
     out: Path | None = None
     seconds: float = MAX_SECONDS
     json: bool = False

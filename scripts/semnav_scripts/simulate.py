@@ -34,7 +34,9 @@ class Arguments:
         robot: wheelchair or spot.
         pose: start pose of the robot, x,y,heading in metres and radians; random if not given.
         seed: seed of everything that is random.
-        speed: simulated seconds a second.
+        speed: simulated seconds a second, at most.
+        lockstep: let simulated time stand still until the node has answered a scan, so that a
+            machine that is busy drives as well as another.
         seconds: give up after this time.
         topics: other names of topics, such as scan=/front/scan.
         navigator: be a navigator, too, for `semnav node --navigator`: action stands in for nav2
@@ -49,6 +51,7 @@ class Arguments:
     pose: OptionalText = None
     seed: int = 0
     speed: float = 1.0
+    lockstep: bool = False
     seconds: float = 3600.0
     topics: tuple[str, ...] = field(default=())
     navigator: NavigatorKind | None = None
@@ -58,6 +61,8 @@ class Arguments:
         """Run until the judge has said its verdict, or time is up."""
         if not 0.1 <= self.speed <= 10.0:
             raise ValueError(f"--speed is {self.speed:g}; it must lie in 0.1 to 10")
+        if self.lockstep and self.navigator is not None:
+            raise ValueError("--lockstep waits for velocities; with --navigator leave it out")
         topics = NodeTopics().renamed(renamings(self.topics))
         pose = None if self.pose is None else parse_pose(self.pose)
         wire = open_wire(self.over, "semnav_robot")
@@ -68,7 +73,7 @@ class Arguments:
                 navigator = robot.navigator
                 told = topics, navigator.take, self.action
                 server = open_navigator_server(self.navigator, wire, *told)
-            shell = RobotShell(robot, wire, topics, self.speed, navigator, server)
+            shell = RobotShell(robot, wire, topics, self.speed, self.lockstep, navigator, server)
             print("publishing; tell a command on semnav/command", flush=True)
             end = time.monotonic() + self.seconds
             outcome = shell.run(lambda: time.monotonic() < end, self.command)

@@ -71,6 +71,17 @@ def test_a_text_goes_out_and_comes_in_with_the_quality_of_its_topic(node):
     }
 
 
+def test_a_package_of_messages_that_is_missing_is_named_with_its_remedy(node, monkeypatch):
+    """The wheels of ROS 2 have no tf2_msgs, which a simulated robot says its mount by."""
+    from semnav_ros.opening import open_wire
+
+    for name in ("tf2_msgs", "tf2_msgs.msg"):
+        monkeypatch.setitem(sys.modules, name, None)
+    wire = open_wire("ros2", "semnav_robot")
+    with pytest.raises(ImportError, match=r"tf2_msgs is missing.*ros-\$ROS_DISTRO-tf2-msgs"):
+        wire.announce(NodeTopics().tf_static)
+
+
 def test_a_stop_is_given_out_before_a_scan_that_came_earlier():
     from semnav_ros.wire import Waiting
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import math
 import re
 import signal
 import subprocess
@@ -103,6 +104,7 @@ def test_a_foreign_host_is_refused(client, host):
         ('{"type": "door", "door": "nowhere", "shut": true}', "door is 'nowhere'"),
         ('{"type": "put", "what": "dog", "place": [0, 0]}', "what is 'dog'"),
         ('{"type": "put", "what": "box", "place": [0, NaN]}', "place[1] is nan"),
+        ('{"type": "put", "what": "robot", "place": [0, 0], "heading": 9}', "heading is 9"),
         ('{"type": "put", "what": "box", "place": [0, 0]}', "nothing drives"),
         ('{"type": "playback", "action": "step"}', "nothing drives"),
         ('{"type": "answer", "text": "left"}', "nothing was asked"),
@@ -274,12 +276,34 @@ def test_what_is_added_to_a_run_is_in_its_pictures(client, what, part, numbers):
     assert pictures[-1]["seconds"] > before["seconds"]
 
 
+def test_a_robot_is_carried_and_its_run_goes_on(client):
+    place = [0.0, 0.0]
+    with in_the_hallway(client) as one:
+        one.send(type="speed", factor=0.25)
+        one.send(**SECOND_DOOR)
+        one.next("understood")
+        before = one.next("frame")
+        one.send(type="put", what="robot", place=place, heading=0.24)
+        one.next("put")
+        pictures = [one.next("frame") for _ in range(3)]  # the first may be of the time before
+        one.send(type="speed", factor=16)
+        ended = one.next("ended")
+    assert math.dist(pictures[-1]["pose"][:2], place) < 0.2
+    assert before["seconds"] < pictures[-1]["seconds"] < ended["seconds"]
+    assert ended["outcome"] == "done"
+
+
 def test_what_cannot_be_added_is_told_and_the_run_goes_on(client):
     with in_the_hallway(client) as one:
         one.send(type="speed", factor=0.25)
         one.send(**SECOND_DOOR)
         one.next("understood")
-        for what, why in (("box", "inside the floor plan"), ("person", "a free place")):
+        refusals = (
+            ("box", "inside the floor plan"),
+            ("person", "a free place"),
+            ("robot", "outside"),
+        )
+        for what, why in refusals:
             one.send(type="put", what=what, place=[99.0, 0.0])
             assert why in one.next("error")["text"]
         one.send(type="speed", factor=16)

@@ -131,19 +131,29 @@ class PageDrive:
             raise ValueError(f"door is {door!r:.80}; doors with a leaf that can swing: {known}")
         self.env.world.hold_door(door, shut)
 
-    def put(self, what: str, place: Point) -> None:
-        """Put down a box, or let a person walk from a place; both stay until the next command.
+    def put(self, what: str, place: Point, heading: float | None = None) -> None:
+        """Put down a box, let a person walk from a place, or carry the robot there.
+
+        Box and person stay until the next command. Each is sensed in the next step.
+
+        Args:
+            what: "box", "person" or "robot".
+            place: of its middle, metres.
+            heading: of the robot, radians; as it is if None.
 
         Raises:
             ValueError: nothing drives, or the place is not free.
         """
         if self.over:
             raise ValueError("nothing drives; give a command first")
-        if what == "box":
-            self.env.world.add_box(place)
-        else:
-            self.env.world.add_person(place)
-        self._seen = None
+        world = self.env.world
+        match what:
+            case "box":
+                world.add_box(place)
+            case "person":
+                world.add_person(place)
+            case _:
+                world.place_robot((*place, world.pose[2] if heading is None else heading))
 
     @property
     def swinging(self) -> tuple[str, ...]:

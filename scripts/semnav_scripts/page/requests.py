@@ -37,6 +37,7 @@ OFFICES = ("small", "medium", "large", "hard", "house")
 
 Metres: TypeAlias = Annotated[float, Bounds(-1000.0, 1000.0, "m")]
 Place: TypeAlias = tuple[Metres, Metres]
+Heading: TypeAlias = Annotated[float, Bounds(-7.0, 7.0, "rad")]
 
 
 @dataclass(frozen=True)
@@ -59,7 +60,7 @@ class SceneRequest:
     robot: Annotated[str, OneOf(("wheelchair", "spot"))] = "wheelchair"
     agent: Annotated[str, OneOf(AGENTS)] = "scripted"
     seed: Annotated[int, Bounds(0, 10**9)] = 0
-    pose: tuple[Metres, Metres, Annotated[float, Bounds(-7.0, 7.0, "rad")]] | None = None
+    pose: tuple[Metres, Metres, Heading] | None = None
     people: Annotated[int, Bounds(0, 12)] = 0
     boxes: tuple[Place, ...] = ()
     leaves: bool = True
@@ -144,15 +145,17 @@ class DoorRequest:
 
 @dataclass(frozen=True)
 class PutRequest:
-    """Put a box or a person into the run.
+    """Put a box or a person into the run, or the robot elsewhere.
 
     Attributes:
-        what: "box" or "person".
+        what: "box", "person" or "robot".
         place: its middle, metres.
+        heading: of the robot, radians; as it is if not given.
     """
 
-    what: Annotated[str, OneOf(("box", "person"))]
+    what: Annotated[str, OneOf(("box", "person", "robot"))]
     place: Place
+    heading: Heading | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)

@@ -144,10 +144,10 @@ class PageSession(threading.Thread):
                 self._speed = factor
             case DoorRequest(door=door, shut=shut):
                 self._scene().shut(door, shut)
-            case PutRequest(what=what, place=place):
-                self._scene().put(what, place)
+            case PutRequest(what=what, place=place, heading=heading):
+                self._scene().put(what, place, heading)
                 self._tell({"type": "put", "what": what})
-                self._show()
+                self._step()
             case KeepRequest(what="board"):
                 self._outbox.put_news(plan_file(self._opened_board().plan))
             case KeepRequest(what=what):

@@ -106,6 +106,11 @@ class Moving:
         self._boxes += 1
         self.segments[-SIDES:] = box_sides(middle)
 
+    def check_robot(self, pose: Pose) -> None:
+        """Refuse a place where the robot would touch somebody or something that moves."""
+        free = self.clearance(pose) > BOX_CLEARANCE
+        require(free, "pose", pose, "where no person, leaf or box of this episode is")
+
     def _check_room(self, what: str, added: int) -> None:
         most = self._dynamics.by_hand
         require(added < most, f"{what} added by hand", added + 1, f"at most {most}")

@@ -54,11 +54,16 @@ def vacant_space(segments: FloatArray, last: pymunk.Space | None) -> pymunk.Spac
 def robot_body(robot: RobotSpec, start: Pose) -> tuple[pymunk.Body, pymunk.Shape]:
     """A body whose origin and centre of gravity are the axle's middle, centre at `start`."""
     body = pymunk.Body(robot.mass, _inertia(robot))
-    body.position = to_parent(start, (robot.axle, 0.0))
-    body.angle = start[2]
+    put_body(robot, body, start)
     shape = pymunk.Poly(body, [(x - robot.axle, y) for x, y in corners(robot).tolist()])
     shape.friction = SCRAPE
     return body, shape
+
+
+def put_body(robot: RobotSpec, body: pymunk.Body, pose: Pose) -> None:
+    """Put a robot's body where its footprint's centre is at `pose`."""
+    body.position = to_parent(pose, (robot.axle, 0.0))
+    body.angle = pose[2]
 
 
 def driving_joints(

@@ -16,7 +16,7 @@ from semnav_env.world.dynamics.boxes import box_corners
 from semnav_env.world.lidar.moving import NO_MOVING_THINGS
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.maps.placement import clearance, has_room, placement_error
-from semnav_env.world.physics.bodies import driving_joints, robot_body, vacant_space
+from semnav_env.world.physics.bodies import driving_joints, put_body, robot_body, vacant_space
 from semnav_env.world.physics.chipmunk import (
     chipmunk_can_be_called,
     note_following,
@@ -144,8 +144,14 @@ class World:
         self._start, self._seed = start, seed
         self._journal, self._by_hand = array("d"), []
         self._build(start)
+        self._come_to_rest()
+
+    def _come_to_rest(self) -> None:
+        """Let the robot's body stand where it is now."""
+        self._body.velocity, self._body.angular_velocity = (0.0, 0.0), 0.0
         read_motion(self.record, self._body)
         self.record["demand"] = 0.0, 0.0, 0.0
+        self.record["touches"] = self.record["impulse"] = self.record["contact_count"] = 0
         note_following(self.record)
         settle(self.record)
 
@@ -278,6 +284,32 @@ class World:
         self._where_things_move("shut", "changing_doors=0.3").doors.hold(door, shut)
         self._note_by_hand("hold_door", door, shut)
 
+    def place_robot(self, pose: Pose) -> None:
+        """Carry the robot to another place by hand, where it stands at rest.
+
+        Odometry feels it, as visual odometry would, so that what the robot remembers stays true:
+        the next control period adds the way there, as if it were driven straight. Judge and belief
+        take it so, too.
+
+        Args:
+            pose: of the footprint's centre, world frame.
+
+        Raises:
+            ValueError: not three finite numbers, outside the boundary, or the footprint would touch
+                a wall, furniture, somebody, a leaf or a box.
+            RuntimeError: before the first `reset`.
+        """
+        self._require_reset()
+        pose = _finite(pose, "pose", "(x, y, heading)")
+        problem = placement_error(self.still, self.robot, pose)
+        if problem is not None:
+            raise ValueError(problem)
+        if self.moving is not None:
+            self.moving.check_robot(pose)
+        put_body(self.robot, self._body, pose)
+        self._come_to_rest()
+        self._note_by_hand("place_robot", pose)
+
     def _where_things_move(self, done: str, setting: str) -> Moving:
         self._require_reset()
         if self.moving is None:
@@ -343,7 +375,6 @@ class World:
         self.record["space"] = address(self._space._space) if self._compiled else 0
         self.record["control"] = address(self._control._body)
         self.record["body"] = address(self._body._body)
-        self.record["touches"] = self.record["impulse"] = self.record["contact_count"] = 0
         note_contacts(self._space, self.record, self._compiled)
         if self.moving is not None:
             self.moving.begin(start, self._seed)

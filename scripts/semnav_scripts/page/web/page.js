@@ -13,6 +13,11 @@ import { listenBy } from "./speech.js";
 import * as talk from "./talk.js";
 
 const FIRST = { pose: [-2.5, -0.6, 0.25] }; // of a visitor whose address names no scene
+const PUT = { // what is said of what comes into a run
+  box: "A box is put down.",
+  person: "A person walks about now.",
+  robot: "The robot is carried there.",
+};
 const REACH = 1.0; // metres from a door within which a click means it
 
 const byId = (id) => document.getElementById(id);
@@ -76,7 +81,7 @@ const { send, sendFile } = connect({
     replay.add(message, trail.length);
     narrate(message);
   },
-  put({ what }) { talk.say(what === "box" ? "A box is put down." : "A person walks about now."); },
+  put({ what }) { talk.say(PUT[what]); },
   ended(message) {
     begin("over");
     talk.showEnd(message);
@@ -195,12 +200,13 @@ function act(points) {
 function actInScene([[x, y], second]) {
   const heading = headingTo([x, y], second);
   const place = [Number(x.toFixed(2)), Number(y.toFixed(2))];
+  const turned = heading === null ? null : Number(heading.toFixed(3));
   const drives = run === "driving" || run === "paused";
-  if (tool() === "person" && !drives) talk.say("A person can be added while the robot drives.");
-  else if (tool() === "person" || (tool() === "box" && drives)) send("put", { what: tool(), place });
+  if (tool() === "door") swing(nearestDoor(x, y));
+  else if (drives) send("put", { what: tool(), place, heading: turned });
+  else if (tool() === "person") talk.say("A person can be added while the robot drives.");
   else if (tool() === "box") change({ boxes: [...scene.scene.boxes, place] });
-  else if (tool() === "robot") change({ pose: [...place, Number((heading ?? scene.start[2]).toFixed(3))] });
-  else swing(nearestDoor(x, y));
+  else change({ pose: [...place, turned ?? Number(scene.start[2].toFixed(3))] });
 }
 
 /** What a click in the scene does: "door", "box", "person" or "robot". */

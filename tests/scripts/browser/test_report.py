@@ -10,16 +10,10 @@ import pytest
 from semnav_agents.evaluation import summarise
 from semnav_scripts.report.html_report import save_report
 from tests.scripts.test_report import MADE_BY, WHO
-from tests.support.chromium import (
-    new_page,
-    opened_browser,
-    playwright_or_skip,
-    serious_findings,
-)
+from tests.support.chromium import new_page, playwright_or_skip, serious_findings
 from tests.support.kept_drives import failure
 
-playwright = playwright_or_skip()
-expect = playwright.expect
+expect = playwright_or_skip().expect
 WIDTHS = (360, 1300)
 
 
@@ -30,12 +24,6 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> str:
     everything = summarise("all", results)
     save_report(path, WHO | MADE_BY, [everything], everything, results)
     return path.as_uri()
-
-
-@pytest.fixture(scope="module")
-def browser() -> Any:
-    with opened_browser(playwright) as opened:
-        yield opened
 
 
 def visit(
