@@ -29,6 +29,7 @@ from semnav_env.language import (
 )
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import PassGoal, StopGoal
+from semnav_env.mind.grounding.visible_doors import doors_around
 from semnav_env.rescue import MicrophoneSettings, PersonFinder
 from semnav_env.rescue.microphones import MicrophoneArray
 from semnav_env.robots import WHEELCHAIR
@@ -37,7 +38,7 @@ from semnav_features.frames import Pose
 
 VILLA = load_floor_plan("villa_hall")
 HALL: Pose = (1.2, 2.0, math.pi / 2)
-KITCHEN = SearchRoom(RoomReference("kitchen"))
+KITCHEN, LIVING_ROOM = (SearchRoom(RoomReference(each)) for each in ("kitchen", "living room"))
 STILL = np.zeros(3)
 
 
@@ -154,6 +155,21 @@ def test_a_named_room_is_gone_into_and_then_searched() -> None:
     assert any(follower.advance(lambda: VILLA.scene, there, 0.0, 0.1) for _ in range(waits))
     assert follower.active == 1
     assert follower.begin == there
+
+
+def test_a_searched_room_is_left_by_its_door_even_where_that_is_hidden() -> None:
+    """Somebody lies between the robot and the only door of the living room."""
+    scene, command = with_person(4.65, 3.64).scene, Command((LIVING_ROOM, Leave()))
+    follower = Follower(command, complete=True, guide=RoomGuide(VILLA, command))
+    follower.start(scene, HALL)
+    for pose in ((2.3, 1.65, 0.0), (2.5, 1.65, 0.0)):
+        follower.advance(lambda: scene, pose, 0.5, 0.1)
+    there: Pose = (4.89, 3.85, 3.0)
+    assert doors_around(scene, there) == []
+    while follower.active == 0:
+        follower.advance(lambda: scene, there, 0.0, 0.1)
+    assert isinstance(follower.goal, PassGoal)
+    assert follower.goal.door.name == "living"
 
 
 def test_a_mission_has_one_goal_for_each_clause_to_find_people() -> None:
