@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from semnav_agents.searching.finding_tasks import (
     MOST_PLACES,
+    FaceTask,
     FindingStep,
     LookTask,
     Percepts,
@@ -24,7 +25,7 @@ from semnav_env.rescue.microphones import USUAL_MICROPHONES
 from semnav_env.rescue.voice_fix import HeardVoice, PersonVoice
 from semnav_env.robots import SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.world.maps import load_floor_plan
-from semnav_features.frames import Point, Pose
+from semnav_features.frames import Point, Pose, to_local
 
 VILLA = load_floor_plan("villa_hall")
 CHART = HousePlan(VILLA, (0.0, 0.0, 0.0)).chart(SearchSettings())
@@ -94,6 +95,31 @@ def test_a_robot_that_something_holds_up_looks_around_to_the_other_side() -> Non
         least = min(least, turned)
     assert least <= math.radians(100.0) - math.tau
     assert step.yaw_rate == 0.0
+
+
+KITCHEN_DOOR = (1.35, 0.0)
+
+
+@given(st.floats(0.6, 1.3), st.floats(0.9, 3.5), st.floats(0.3, 2.8))
+def test_a_robot_turns_to_the_door_of_a_room_that_it_is_to_search(
+    x: float, y: float, heading: float
+) -> None:
+    looker = Looker(WHEELCHAIR, math.radians(120.0), 6.0)
+    pose: Pose = (x, y, heading)
+    task = FaceTask(CHART, looker, pose, KITCHEN_DOOR)
+    for _ in range(200):
+        step = task.next_step(pose, Percepts([]))
+        place_x, place_y, turned = step.target or pose
+        pose = place_x, place_y, turned + step.yaw_rate / 15.0
+    assert step.is_idle
+    ahead, left = to_local(pose, KITCHEN_DOOR)
+    assert abs(math.atan2(left, ahead)) < math.radians(35.0)
+
+
+def test_a_robot_that_cannot_turn_goes_to_the_door_as_it_stands() -> None:
+    pose: Pose = (0.95, 0.88, math.pi / 2)
+    task = FaceTask(CHART, Looker(WHEELCHAIR, math.radians(120.0), 6.0), pose, KITCHEN_DOOR)
+    assert any(task.next_step(pose, Percepts([])).is_idle for _ in range(300))
 
 
 def person_task(visited: list[Point] | None = None) -> PersonTask:

@@ -34,7 +34,7 @@ from semnav_env.rescue import MicrophoneSettings, PersonFinder
 from semnav_env.rescue.microphones import MicrophoneArray
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.world.maps import FloorPlan, Material, Surface, load_floor_plan
-from semnav_features.frames import Pose
+from semnav_features.frames import Pose, wrap_angle
 
 VILLA = load_floor_plan("villa_hall")
 HALL: Pose = (1.2, 2.0, math.pi / 2)
@@ -245,6 +245,15 @@ def test_a_wall_behind_that_was_never_hit_is_an_obstacle(
     agent, _, observation = finder_in(pose, "go down the hallway")
     near = agent.obstacles(observation).near((0.0, 0.0, 0.0), 2.0)
     assert clearance_to(near, corner) < 0.08
+
+
+def test_a_wheelchair_goes_forward_into_a_room_in_which_somebody_may_lie() -> None:
+    """It looks away from the door of the kitchen, and its lidar sees nothing behind."""
+    agent, env, observation = finder_in((0.95, 0.88, 1.4), 'search room "kitchen"')
+    while env.judge.crossed == []:
+        observation, *_ = env.step(agent.act(observation))
+    heading = float(env.judge.row["pose"][0][2])
+    assert abs(wrap_angle(heading + math.pi / 2)) < math.pi / 3
 
 
 def test_a_wall_that_was_passed_in_a_search_is_an_obstacle_of_the_way_back() -> None:
