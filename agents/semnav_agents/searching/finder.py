@@ -178,26 +178,21 @@ class Finder(PlanSearcher):
             self._under_way, self._task = under_way, None
             if under_way is not None:
                 clause, motion = self._command.clauses[under_way[0]], read_odometry(observation)
-                stops = goal.kind is GoalKind.STOP
-                make = self._new_task if stops else self._new_task_on_the_way
-                self._task = make(clause, goal, *motion)
+                if goal.kind is GoalKind.STOP:
+                    self._task = self._new_task(clause, *motion)
+                elif isinstance(clause, SearchRoom) and goal.door is not None:
+                    self._task = self._facing(goal.door, motion[0])
         return self._task
 
-    def _new_task_on_the_way(
-        self, clause: Clause, goal: SeenGoal, pose: Pose, velocity: Twist
-    ) -> FindingTask | None:
+    def _facing(self, door: tuple[Point, Point], pose: Pose) -> FindingTask | None:
         """To face the door of a room that is to be searched, if it lies behind the robot."""
-        del velocity
-        if not isinstance(clause, SearchRoom) or goal.door is None:
+        (x1, y1), (x2, y2) = door
+        middle = (x1 + x2) / 2, (y1 + y2) / 2
+        if middle[0] >= 0.0:
             return None
-        (x1, y1), (x2, y2) = goal.door
-        door = to_parent(pose, ((x1 + x2) / 2, (y1 + y2) / 2))
-        return FaceTask(self._chart, self._looker, pose, door) if x1 + x2 < 0.0 else None
+        return FaceTask(self._chart, self._looker, pose, to_parent(pose, middle))
 
-    def _new_task(
-        self, clause: Clause, goal: SeenGoal, pose: Pose, velocity: Twist
-    ) -> FindingTask | None:
-        del goal
+    def _new_task(self, clause: Clause, pose: Pose, velocity: Twist) -> FindingTask | None:
         match clause:
             case SearchHouse():
                 return SearchTask(self._chart, self._looker, None)
