@@ -163,6 +163,11 @@ class Judge:
         return self.leading.over
 
     @property
+    def clause(self) -> int:
+        """Index of the clause that is judged, see `ReadingJudge.clause`."""
+        return self.leading.clause
+
+    @property
     def completed(self) -> int:
         """Number of clauses that have been carried out."""
         return self.leading.completed

@@ -158,6 +158,14 @@ class ReadingJudge:
         return self.failure is not None or self.follower.done
 
     @property
+    def clause(self) -> int:
+        """Index of the clause that is judged: the active one, or the one that was not carried out.
+
+        It is the number of clauses when all are done.
+        """
+        return self.follower.active if self._failed is None else self._failed
+
+    @property
     def completed(self) -> int:
         """Number of clauses that have been carried out."""
         return len(self._met)
@@ -182,10 +190,11 @@ class ReadingJudge:
         state = self._state[0]
         pose: Pose = (float(state["x"]), float(state["y"]), float(state["heading"]))
         strayed = left_the_wall(self._state, self.mission.rules.success)
-        completed = self.follower.think(events, self._scene, pose)
         if events & DOOR_CROSSED:
             crossed = self.mission.floor_plan.doors[int(state["crossed_door"])]
             self.crossed.append(crossed.name)
+            self.follower.note_doorway(pose)
+        completed = self.follower.think(events, self._scene, pose)
         if completed:
             self._met.append(goal)
             if wait_of(goal) > 0.0:  # to stand still as told counts no more
@@ -226,9 +235,8 @@ class ReadingJudge:
         return self._payload is None or self._payload.fulfils(self.mission.command.clauses[clause])
 
     def _note_verdicts(self) -> None:
-        clauses, follower = len(self.mission.command.clauses), self.follower
-        active = follower.active if self._failed is None else self._failed
-        found = verdicts(clauses, active, self.failure, follower.skipped)
+        clauses = len(self.mission.command.clauses)
+        found = verdicts(clauses, self.clause, self.failure, self.follower.skipped)
         self.verdicts = tuple(map(str, found))
 
     def _scene(self) -> Scene:

@@ -7,7 +7,7 @@ from semnav_env.rescue.person_finder import PersonFinder
 from semnav_env.rescue.person_map import PersonMap, PersonTrack
 from semnav_env.rescue.person_search import PersonSearch
 from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
-from semnav_env.rescue.voice_fix import HeardVoice, VoiceFix, fix
+from semnav_env.rescue.voice_fix import HeardVoice, PersonVoice, VoiceFix, fix
 
 __all__ = [
     "CallAndListen",
@@ -20,6 +20,7 @@ __all__ = [
     "PersonMapSettings",
     "PersonSearch",
     "PersonTrack",
+    "PersonVoice",
     "SearchOutcome",
     "SearchRules",
     "VoiceFix",

@@ -11,7 +11,7 @@ from semnav_env.judge.payload import PayloadMarks
 from semnav_env.language.clauses import Clause
 from semnav_env.mind.belief import BeliefTracker
 from semnav_env.rescue.microphones import USUAL_MICROPHONES, MicrophoneArray, MicrophoneSettings
-from semnav_env.rescue.voice_fix import HeardVoice, VoiceFix, fix
+from semnav_env.rescue.voice_fix import HeardVoice, PersonVoice, VoiceFix, by_speaker, fix
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.simulator import Motion, RobotSetup
 from semnav_features.frames import ORIGIN, Pose, to_parent
@@ -34,7 +34,7 @@ class CallAndListen:
         settings: of the microphones, and of the people.
 
     Attributes:
-        voices: the directions of each person's voice, by number of the person.
+        voices: the directions of voices, in the order in which they were heard.
     """
 
     settings: MicrophoneSettings
@@ -51,7 +51,7 @@ class CallAndListen:
         )
         self._frame = ORIGIN if setup.exact else start
         self._still, self._called_at = 0.0, list[Pose]()
-        self.voices: dict[int, list[HeardVoice]] = {}
+        self.voices: list[PersonVoice] = []
 
     def update(self, motion: Motion, tracker: BeliefTracker) -> None:
         """See `Payload`."""
@@ -63,7 +63,7 @@ class CallAndListen:
             return
         self._called_at.append(pose)
         for person, bearing, std in self._microphones.call(motion.pose):
-            self.voices.setdefault(person, []).append(HeardVoice(pose, bearing, std))
+            self.voices.append(PersonVoice(person, HeardVoice(pose, bearing, std)))
 
     @property
     def calls(self) -> int:
@@ -73,7 +73,7 @@ class CallAndListen:
     @property
     def fixes(self) -> dict[int, VoiceFix]:
         """The people whose place is known, by number of the person, odometry frame."""
-        found = {person: fix(voices) for person, voices in self.voices.items()}
+        found = {person: fix(voices) for person, voices in by_speaker(self.voices).items()}
         return {person: each for person, each in found.items() if each is not None}
 
     def fulfils(self, clause: Clause) -> bool:
@@ -83,7 +83,9 @@ class CallAndListen:
     def marks(self) -> PayloadMarks:
         """See `Payload`: flags where the people are believed to be."""
         flags = [to_parent(self._frame, each.place) for each in self.fixes.values()]
-        status = f"calls: {self.calls}   heard: {len(self.voices)}   located: {len(flags)}"
+        status = (
+            f"calls: {self.calls}   heard: {len(by_speaker(self.voices))}   located: {len(flags)}"
+        )
         return PayloadMarks(np.empty((0, 2)), np.array(flags).reshape(-1, 2), status)
 
     def start_info(self) -> dict[str, Any]:
@@ -93,4 +95,5 @@ class CallAndListen:
     def final_info(self) -> dict[str, Any]:
         """See `Payload`: world frame."""
         places = {p: to_parent(self._frame, each.place) for p, each in self.fixes.items()}
-        return {"voices": {"calls": self.calls, "heard": len(self.voices), "located": places}}
+        heard = len(by_speaker(self.voices))
+        return {"voices": {"calls": self.calls, "heard": heard, "located": places}}

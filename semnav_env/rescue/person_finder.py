@@ -27,7 +27,7 @@ from semnav_env.rescue.microphones import USUAL_MICROPHONES, MicrophoneArray, Mi
 from semnav_env.rescue.person_map import PersonTrack
 from semnav_env.rescue.person_search import PersonSearch
 from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
-from semnav_env.rescue.voice_fix import HeardVoice, fix
+from semnav_env.rescue.voice_fix import HeardVoice, PersonVoice, by_speaker, fix
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.simulator import Motion, RobotSetup
 from semnav_features.frames import Pose, to_parent
@@ -82,11 +82,11 @@ class PersonFinder(PersonSearch):
         microphones: their errors, and who can answer.
 
     Attributes:
-        voices: directions of each person's voice, by number of the person, odometry frame.
+        voices: directions of voices, in the order in which they were heard, odometry frame.
     """
 
     microphones: MicrophoneSettings
-    voices: dict[int, list[HeardVoice]]
+    voices: list[PersonVoice]
 
     def __init__(
         self,
@@ -108,7 +108,7 @@ class PersonFinder(PersonSearch):
         self._dealt = drawn.permutation(len(NAMES)).tolist()
         self._regions = (*plan.rooms, *plan.areas, *plan.corridors, *plan.intersections)
         self._pose, self._log, self._ended = start, ClauseLog(), False
-        self.voices = {}
+        self.voices = []
         self._heard: dict[int, PersonTrack] = {}
         self._visited, self._reached = set[int](), set[int]()
         self._called_at: list[Pose] = []
@@ -150,7 +150,7 @@ class PersonFinder(PersonSearch):
         """Whether a call from here may locate somebody who has answered."""
         here = tracker.belief.pose[:2]
         near = any(math.dist(here, each[:2]) < NEXT_CALL_DISTANCE for each in self._called_at)
-        return not near and not self.voices.keys() <= self._heard.keys()
+        return not near and not by_speaker(self.voices).keys() <= self._heard.keys()
 
     def _call(self, believed: Pose) -> None:
         """Call once the robot has stood still for long enough, and locate who answers."""
@@ -159,9 +159,8 @@ class PersonFinder(PersonSearch):
         self._log.called = True
         self._called_at.append(believed)
         for person, bearing, std in self._array.call(self._pose):
-            voices = self.voices.setdefault(person, [])
-            voices.append(HeardVoice(believed, bearing, std))
-            found = fix(voices)
+            self.voices.append(PersonVoice(person, HeardVoice(believed, bearing, std)))
+            found = fix(by_speaker(self.voices)[person])
             if found is not None and _largest_std(found.covariance) <= LOCATED_STD:
                 self._locate(person, found.place, _largest_std(found.covariance))
 
@@ -254,7 +253,7 @@ class PersonFinder(PersonSearch):
             }
             for track in self.people.tracks
         ]
-        fixes = {person: fix(voices) for person, voices in self.voices.items()}
+        fixes = {person: fix(voices) for person, voices in by_speaker(self.voices).items()}
         by_voice = {
             person: {
                 "place": to_parent(self._frame, each.place),

@@ -36,11 +36,26 @@ class HeardVoice(NamedTuple):
         return self.pose[2] + self.bearing
 
 
+class PersonVoice(NamedTuple):
+    """A direction of a voice, with the number of the speaker."""
+
+    person: int
+    voice: HeardVoice
+
+
 class VoiceFix(NamedTuple):
     """A place of a speaker: metres, the frame of the poses, and its covariance, m^2, (2, 2)."""
 
     place: Point
     covariance: FloatArray
+
+
+def by_speaker(voices: Sequence[PersonVoice]) -> dict[int, list[HeardVoice]]:
+    """The directions of each voice, in their order, by number of the speaker."""
+    each: dict[int, list[HeardVoice]] = {}
+    for person, voice in voices:
+        each.setdefault(person, []).append(voice)
+    return each
 
 
 def fix(voices: Sequence[HeardVoice]) -> VoiceFix | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import gymnasium as gym
 import numpy as np
@@ -11,24 +11,17 @@ from numpy.typing import NDArray
 
 from semnav_env.mind.observations import Moment
 from semnav_env.rescue.people_entry import FARTHEST
-from semnav_env.rescue.voice_fix import HeardVoice
+from semnav_env.rescue.voice_fix import HeardVoice, PersonVoice
 from semnav_env.robots import RobotSpec
 from semnav_features.frames import Pose, compose, relative
 from semnav_features.lidar_spec import LidarSpec
 
 MOST_VOICES = 16
-"""Rows of the entry; of more answers those of the people who answered first are left out."""
+"""Rows of the entry; of more answers the earliest are left out."""
 
 COLUMNS = ("is_there", "person", "x", "y", "cosine", "sine", "std")
 """Columns of a row: whether it counts, number of the speaker, where the answer was heard and its
 direction (robot frame, metres), and the standard deviation of the direction, radians."""
-
-
-class PersonVoice(NamedTuple):
-    """A row of the entry: the number of the speaker, and the direction of the voice."""
-
-    person: int
-    voice: HeardVoice
 
 
 class VoicesEntry:
@@ -50,8 +43,7 @@ class VoicesEntry:
     def observe(self, moment: Moment) -> NDArray[np.float32]:
         """Make new rows."""
         rows = np.zeros((MOST_VOICES, len(COLUMNS)), np.float32)
-        voices: dict[int, list[HeardVoice]] = getattr(moment.payload, "voices", {})
-        heard = [(person, voice) for person, each in voices.items() for voice in each]
+        heard: list[PersonVoice] = getattr(moment.payload, "voices", [])
         for row, (person, voice) in zip(rows, heard[-MOST_VOICES:], strict=False):
             x, y, turn = relative(moment.belief.pose, voice.pose)
             x, y = np.clip((x, y), -FARTHEST, FARTHEST).tolist()

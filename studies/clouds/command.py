@@ -24,6 +24,7 @@ DETECTORS: dict[str, tuple[Sensor, Look]] = {
     "Mes 2021, crop by the robot": (detectors.spot, detectors.by_robot),
     "Mes 2021, crop by hand, cloud thinned to 1 cm": (detectors.spot, detectors.thinned),
     "DoorFinder": (detectors.spot, detectors.finder),
+    "DoorFinder, then for shut doors": (detectors.spot, detectors.finder_of_both),
     "DoorFinder, three clouds": (detectors.spot_on_its_way, detectors.finder),
     "DoorFinder, full height": (detectors.full_height, detectors.finder),
     "DoorFinder and 2D lidar": (detectors.spot, detectors.with_lidar),

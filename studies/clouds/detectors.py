@@ -20,6 +20,7 @@ from semnav_features.clouds import (
     MesStep,
     PointCloud,
     door_in_scene,
+    find_shut_door,
     fused,
     joined,
 )
@@ -107,6 +108,14 @@ def by_robot(scene: CloudScene, view: CloudView) -> DetectedDoor | None:
 def finder(scene: CloudScene, view: CloudView) -> DetectedDoor | None:
     """The better detector."""
     return DoorFinder().find_door(view.cloud, scene.expected, SIGMA)
+
+
+def finder_of_both(scene: CloudScene, view: CloudView) -> DetectedDoor | None:
+    """The better detector, and where it finds none that of shut doors."""
+    open_door = finder(scene, view)
+    if open_door is not None:
+        return open_door
+    return find_shut_door(view.cloud, scene.expected, SIGMA)
 
 
 def scan_doors(scene: CloudScene, view: CloudView) -> DetectedDoor | None:

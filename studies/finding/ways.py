@@ -14,7 +14,7 @@ from semnav_env.rescue.person_detector import PersonDetector
 from semnav_env.rescue.person_map import PersonMap
 from semnav_env.rescue.room_coverage import RoomCoverage
 from semnav_env.rescue.settings import PersonDetectorSettings, PersonMapSettings, SearchRules
-from semnav_env.rescue.voice_fix import HeardVoice, fix
+from semnav_env.rescue.voice_fix import HeardVoice, PersonVoice, by_speaker, fix
 from semnav_env.robots import SPOT
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_features.frames import Point, Pose, compose, heading_between
@@ -160,12 +160,12 @@ def _called(
     """Where the robot called, and the directions of each person's voice."""
     microphones = MicrophoneArray(house.plan, USUAL_MICROPHONES, rng)
     places = house.tour([p for r in house.plan.rooms for p in house.places(r.polygon, 2)])
-    heard: dict[int, list[HeardVoice]] = {}
+    heard: list[PersonVoice] = []
     for place in places:
         pose = (*place, 0.0)
         for person, bearing, std in microphones.call(pose):
-            heard.setdefault(person, []).append(HeardVoice(pose, bearing, std))
-    return places, heard
+            heard.append(PersonVoice(person, HeardVoice(pose, bearing, std)))
+    return places, by_speaker(heard)
 
 
 def _located(heard: dict[int, list[HeardVoice]]) -> list[Point]:

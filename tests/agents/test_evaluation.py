@@ -85,6 +85,7 @@ def test_a_search_has_its_own_time_limit_and_two_victims() -> None:
     [trial, *_] = suite("villa_search")
     [result] = runner.run_suite([trial], Statue, "spot", (0,))
     assert result.verdicts == ("incomplete",)
+    assert result.cause.startswith("not done in full: search the house")
     assert SuiteJob(trial, 0).max_seconds == MAX_SEARCH_SECONDS
     assert SuiteJob(suite("villa")[0], 0).max_seconds == TRIAL_SECONDS
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,8 @@ from semnav_env.env import SemNavEnv
 from semnav_env.judge.payload import Payload
 from semnav_env.rescue.call_and_listen import CallAndListen
 from semnav_env.rescue.microphones import USUAL_MICROPHONES, MicrophoneArray
-from semnav_env.rescue.voice_fix import HeardVoice, fix
+from semnav_env.rescue.voice_fix import HeardVoice, PersonVoice, fix
+from semnav_env.rescue.voices_entry import VoicesEntry, read_voices
 from semnav_env.world.maps import FloorPlan, Material, Surface, load_floor_plan
 from semnav_features.frames import Point, Pose, to_local
 
@@ -91,6 +93,17 @@ def test_distance_and_walls_make_a_direction_worse_and_then_inaudible() -> None:
     assert MicrophoneArray(with_person(-8.0, 4.4), EARS, _rng()).call(HERE) == []
 
 
+def test_of_many_answers_those_that_were_heard_last_are_observed() -> None:
+    """Whoever answered first is not preferred, nor left out as a speaker."""
+    heard = [PersonVoice(k % 2, HeardVoice((0.1 * k, 0.0, 0.0), 0.3, 0.05)) for k in range(40)]
+    payload = SimpleNamespace(voices=heard)
+    belief = SimpleNamespace(pose=(0.0, 0.0, 0.0))
+    row = VoicesEntry().observe(SimpleNamespace(payload=payload, belief=belief))  # type: ignore[arg-type]
+    read = read_voices({"voices": row}, (0.0, 0.0, 0.0))
+    assert [each.person for each in read] == [k % 2 for k in range(24, 40)]
+    assert [each.voice.pose[0] for each in read] == pytest.approx([0.1 * k for k in range(24, 40)])
+
+
 def test_who_cannot_answer_never_does() -> None:
     array = MicrophoneArray(with_person(1.0, 1.0), replace(EARS, answers=0.0), _rng())
     assert not any(array.call(HERE) for _ in range(20))
@@ -103,7 +116,7 @@ def test_a_robot_calls_once_where_it_stands_still() -> None:
     env.reset(seed=0, options={"command": "stop", "pose": HERE})
     for _ in range(8 * 15):
         payload.update(env.simulator.motion, env.tracker)
-    assert (payload.calls, len(payload.voices[0])) == (1, 1)
+    assert (payload.calls, [each.person for each in payload.voices]) == (1, [0])
     assert payload.fixes == {}
     assert payload.final_info()["voices"]["heard"] == 1
     assert "heard: 1" in payload.marks().status

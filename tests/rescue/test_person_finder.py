@@ -29,15 +29,16 @@ from semnav_env.language import (
 )
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import PassGoal, StopGoal
+from semnav_env.mind.grounding.visible_doors import doors_around
 from semnav_env.rescue import MicrophoneSettings, PersonFinder
 from semnav_env.rescue.microphones import MicrophoneArray
 from semnav_env.robots import WHEELCHAIR
 from semnav_env.world.maps import FloorPlan, Material, Surface, load_floor_plan
-from semnav_features.frames import Pose
+from semnav_features.frames import Pose, wrap_angle
 
 VILLA = load_floor_plan("villa_hall")
 HALL: Pose = (1.2, 2.0, math.pi / 2)
-KITCHEN = SearchRoom(RoomReference("kitchen"))
+KITCHEN, LIVING_ROOM = (SearchRoom(RoomReference(each)) for each in ("kitchen", "living room"))
 STILL = np.zeros(3)
 
 
@@ -156,6 +157,21 @@ def test_a_named_room_is_gone_into_and_then_searched() -> None:
     assert follower.begin == there
 
 
+def test_a_searched_room_is_left_by_its_door_even_where_that_is_hidden() -> None:
+    """Somebody lies between the robot and the only door of the living room."""
+    scene, command = with_person(4.65, 3.64).scene, Command((LIVING_ROOM, Leave()))
+    follower = Follower(command, complete=True, guide=RoomGuide(VILLA, command))
+    follower.start(scene, HALL)
+    for pose in ((2.3, 1.65, 0.0), (2.5, 1.65, 0.0)):
+        follower.advance(lambda: scene, pose, 0.5, 0.1)
+    there: Pose = (4.89, 3.85, 3.0)
+    assert doors_around(scene, there) == []
+    while follower.active == 0:
+        follower.advance(lambda: scene, there, 0.0, 0.1)
+    assert isinstance(follower.goal, PassGoal)
+    assert follower.goal.door.name == "living"
+
+
 def test_a_mission_has_one_goal_for_each_clause_to_find_people() -> None:
     command = Command((KITCHEN, LookAround(), GoToPerson(), Leave()))
     goals = plan_goals(VILLA, command, HALL)
@@ -229,6 +245,15 @@ def test_a_wall_behind_that_was_never_hit_is_an_obstacle(
     agent, _, observation = finder_in(pose, "go down the hallway")
     near = agent.obstacles(observation).near((0.0, 0.0, 0.0), 2.0)
     assert clearance_to(near, corner) < 0.08
+
+
+def test_a_wheelchair_goes_forward_into_a_room_in_which_somebody_may_lie() -> None:
+    """It looks away from the door of the kitchen, and its lidar sees nothing behind."""
+    agent, env, observation = finder_in((0.95, 0.88, 1.4), 'search room "kitchen"')
+    while env.judge.crossed == []:
+        observation, *_ = env.step(agent.act(observation))
+    heading = float(env.judge.row["pose"][0][2])
+    assert abs(wrap_angle(heading + math.pi / 2)) < math.pi / 3
 
 
 def test_a_wall_that_was_passed_in_a_search_is_an_obstacle_of_the_way_back() -> None:

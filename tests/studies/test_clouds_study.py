@@ -5,11 +5,12 @@ import math
 import numpy as np
 import pytest
 
-from semnav_features.clouds import DetectedDoor
+from semnav_features.clouds import DetectedDoor, find_shut_door
 from semnav_features.clouds.detected_door import frame_of
+from semnav_features.elements import Door
 from semnav_features.frames import points_to_local
 from studies.clouds import detectors
-from studies.clouds.detectors import judge
+from studies.clouds.detectors import SIGMA, judge
 from studies.clouds.scenes import POSES, SHUT, draw_scenes
 
 
@@ -57,3 +58,19 @@ def test_cameras_see_through_a_shut_door_of_glass_and_not_of_wood():
         side = math.copysign(1.0, points_to_local(frame, np.zeros((1, 2)))[0, 1])
         behind[kind] = np.count_nonzero(inside & (-side * points[:, 1] > 0.3))
     assert behind["glass"] > 5 * (behind["wood"] + 1)
+
+
+def test_a_shut_door_is_found_by_its_frame_and_none_on_the_wall_beside():
+    """The leaf lies 6 cm behind the front of the frame."""
+    found = beside = 0
+    for scene in draw_scenes("wood", 8, 5):
+        cloud, (x1, y1), (x2, y2) = scene.hits.cloud, scene.truth.start, scene.truth.end
+        door = find_shut_door(cloud, scene.truth, SIGMA)
+        if door is not None:
+            ends = math.dist(door.start, (x1, y1)), math.dist(door.end, (x2, y2))
+            found += max(ends) <= 0.1
+        dx, dy = 1.6 * (x2 - x1), 1.6 * (y2 - y1)
+        wall = Door((x1 + dx, y1 + dy), (x2 + dx, y2 + dy))
+        beside += find_shut_door(cloud, wall, 0.05) is not None
+    assert found >= 3
+    assert beside == 0

@@ -33,6 +33,8 @@ def _what_happened(judge: Judge) -> str:
             return f"crossed {judge.crossed[-1]}, {_instead(goal)}"
         case Verdict.WRONG_TURN:
             return f"left by another arm or went past, {_instead(goal)}"
+        case Verdict.INCOMPLETE:
+            return f"not done in full: {judge.mission.command.clauses[judge.clause]}"
         case _:
             return f"not done: {goal.because}"
 

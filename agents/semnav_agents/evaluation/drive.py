@@ -55,8 +55,8 @@ class Drive:
     def kind(self) -> str:
         """The kind of the clause that failed, such as "Turn"; empty after success."""
         clauses = self.judge.mission.command.clauses
-        active = min(self.judge.follower.active, len(clauses) - 1)
-        return "" if self.metrics.success else type(clauses[active]).__name__
+        judged = min(self.judge.clause, len(clauses) - 1)
+        return "" if self.metrics.success else type(clauses[judged]).__name__
 
     def as_infeasible(self) -> Drive:
         """The result of the same drive for an impossible command.

@@ -22,6 +22,7 @@ from semnav_agents.searching.agent import (
     people_of,
 )
 from semnav_agents.searching.finding_tasks import (
+    FaceTask,
     FindingTask,
     LookTask,
     Percepts,
@@ -55,7 +56,15 @@ from semnav_env.rescue.microphones import USUAL_MICROPHONES, MicrophoneSettings
 from semnav_env.rescue.people_entry import PeopleEntry
 from semnav_env.rescue.voices_entry import VoicesEntry, read_voices
 from semnav_env.robots.actions import shares_of
-from semnav_features.frames import FloatArray, Point, Pose, Twist, compose, points_to_parent
+from semnav_features.frames import (
+    FloatArray,
+    Point,
+    Pose,
+    Twist,
+    compose,
+    points_to_parent,
+    to_parent,
+)
 
 ALONE = np.zeros(1, np.int64)
 """The number of the only robot that a `Finder` drives."""
@@ -93,7 +102,7 @@ class Finder(PlanSearcher):
         told = info.get("microphones")
         self._microphones = MicrophoneSettings(**told) if told else USUAL_MICROPHONES
         self._command: Command | None = None
-        self._under_way = -1
+        self._under_way: tuple[int, GoalKind] | None = None
         self._task: FindingTask | None = None
         self._visited: list[Point] = []
 
@@ -103,12 +112,14 @@ class Finder(PlanSearcher):
         pose, velocity = read_odometry(observation)
         self._see(pose, observation["scan"])
         self._perception.update(observation["odometry"][None], observation["scan"][None], ALONE)
-        task = self._current_task(observation)
-        if task is None:
-            doors = table(observation, "remembered_doors").astype(np.float64)
-            return self._go(observation, SeenGoal.read(observation["goal"]), doors, USUAL_PLANNER)
+        goal = SeenGoal.read(observation["goal"])
+        task = self._current_task(observation, goal)
         seen = Percepts(people_of(observation, pose), read_voices(observation, pose))
-        step = task.next_step(pose, seen)
+        step = None if task is None else task.next_step(pose, seen)
+        if step is None or (goal.kind is not GoalKind.STOP and step.is_idle):
+            self._task = None
+            doors = table(observation, "remembered_doors").astype(np.float64)
+            return self._go(observation, goal, doors, USUAL_PLANNER)
         if step.yaw_rate:
             return self._turn(self.obstacles(observation), step.yaw_rate, pose, velocity)
         planner = CAREFUL_PLANNER if step.careful else STUCK_PLANNER
@@ -155,21 +166,31 @@ class Finder(PlanSearcher):
         share = safe_share(near, (0.0, 0.0, yaw_rate), velocity, GuardedBody.of(robot))
         return shares_of((0.0, 0.0, share * yaw_rate), robot)
 
-    def _current_task(self, observation: Observation) -> FindingTask | None:
+    def _current_task(self, observation: Observation, goal: SeenGoal) -> FindingTask | None:
         """The task of the clause that the robot believes to be active; None if it only drives."""
         if self._command is None:
             rooms = self._known_plan.room_names
             tokens = observation["command"].reshape(MAX_CLAUSES, CLAUSE_FEATURES)
             self._command = decode(tokens.astype(np.int64), rooms)
-        stops = SeenGoal.read(observation["goal"]).kind is GoalKind.STOP
         active = observation["clause"]
-        number = int(np.argmax(active)) if stops and active.any() else -1
-        if number != self._under_way:
-            self._under_way = number
-            motion = read_odometry(observation)
-            clause = self._command.clauses[number]
-            self._task = None if number < 0 else self._new_task(clause, *motion)
+        under_way = (int(np.argmax(active)), goal.kind) if active.any() else None
+        if under_way != self._under_way:
+            self._under_way, self._task = under_way, None
+            if under_way is not None:
+                clause, motion = self._command.clauses[under_way[0]], read_odometry(observation)
+                if goal.kind is GoalKind.STOP:
+                    self._task = self._new_task(clause, *motion)
+                elif isinstance(clause, SearchRoom) and goal.door is not None:
+                    self._task = self._facing(goal.door, motion[0])
         return self._task
+
+    def _facing(self, door: tuple[Point, Point], pose: Pose) -> FindingTask | None:
+        """To face the door of a room that is to be searched, if it lies behind the robot."""
+        (x1, y1), (x2, y2) = door
+        middle = (x1 + x2) / 2, (y1 + y2) / 2
+        if middle[0] >= 0.0:
+            return None
+        return FaceTask(self._chart, self._looker, pose, to_parent(pose, middle))
 
     def _new_task(self, clause: Clause, pose: Pose, velocity: Twist) -> FindingTask | None:
         match clause:

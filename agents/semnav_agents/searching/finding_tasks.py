@@ -14,9 +14,8 @@ from semnav_agents.searching.views import Looker, place_before, place_towards
 from semnav_agents.searching.voice_places import VoicePlaces
 from semnav_agents.searching.ways import ways_from
 from semnav_env.rescue.microphones import MicrophoneSettings
-from semnav_env.rescue.voice_fix import HeardVoice
-from semnav_env.rescue.voices_entry import PersonVoice
-from semnav_features.frames import Point, Pose, wrap_angle
+from semnav_env.rescue.voice_fix import HeardVoice, PersonVoice, by_speaker
+from semnav_features.frames import Point, Pose, to_local, wrap_angle
 
 TURN_RATE = 1.0
 """Yaw rate of a look around, rad/s."""
@@ -25,9 +24,16 @@ TURN_MARGIN = 0.28
 """Distance from everything solid beside the body that turns on the spot, metres: it comes to within
 0.2 m of the place to turn."""
 
-TURN_RADIUS = 1.1
-"""Largest distance of the axle at the place to turn from where the clause began, metres: the middle
-of a turning wheelchair comes 0.18 m farther, and 0.2 m more is the tolerance of the way there."""
+LOOK_RADIUS = 1.1
+"""Largest distance of the axle from where the clause began at the place to look around, metres: the
+middle of a turning wheelchair comes 0.18 m farther, and 0.2 m more is the tolerance of the way
+there."""
+
+FACE_RADIUS = 3.0
+"""The same where the robot only turns to face a door, metres."""
+
+FACED = math.radians(30.0)
+"""Angle from straight ahead up to which the robot faces a door."""
 
 PATIENCE = 200
 """Control periods after which the robot turns where it is, though it has not come to that place."""
@@ -45,7 +51,10 @@ TALKING_RANGE = 1.8
 """Distance within which a robot is with a person, metres: a little less than the judge's."""
 
 MOST_PLACES = 6
-"""Places before one person that are tried."""
+"""Places before one person that are tried with a margin around the body, and then without one."""
+
+SAME_DIRECTION = 3.0
+"""Standard deviations up to which a voice may come from a known person."""
 
 People: TypeAlias = list[tuple[Point, float, bool]]
 """Place (odometry frame), probability and whether it is reported, of each possible person."""
@@ -70,6 +79,11 @@ class FindingStep(NamedTuple):
     target: Pose | None = None
     yaw_rate: float = 0.0
     careful: bool = True
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether there is nothing to do."""
+        return self.target is None and self.yaw_rate == 0.0
 
 
 class FindingTask(Protocol):
@@ -107,11 +121,14 @@ class LookTask:
         chart: the map.
         looker: body and detector.
         pose: where the clause began.
+        radius: largest distance of the place to turn from there, metres.
     """
 
-    def __init__(self, chart: SearchMap, looker: Looker, pose: Pose) -> None:
+    def __init__(
+        self, chart: SearchMap, looker: Looker, pose: Pose, radius: float = LOOK_RADIUS
+    ) -> None:
         self._axle = looker.robot.axle
-        self._place: Pose | None = _place_to_turn(chart, looker, pose)
+        self._place: Pose | None = _place_to_turn(chart, looker, pose, radius)
         self._patience = PATIENCE
         self._tolerance = chart.settings.position_tolerance
         self._turned, self._heading = 0.0, pose[2]
@@ -128,8 +145,11 @@ class LookTask:
                 return FindingStep(self._place)
             self._place, self._heading = None, pose[2]
         self._note_turn(pose[2])
-        done = self._most - self._least >= math.tau
-        return FindingStep() if done else FindingStep(yaw_rate=self._rate)
+        return FindingStep() if self._is_done(pose) else FindingStep(yaw_rate=self._rate)
+
+    def _is_done(self, pose: Pose) -> bool:
+        """Whether it has turned far enough."""
+        return self._most - self._least >= math.tau
 
     def _note_turn(self, heading: float) -> None:
         """Note how far it has turned to each side, and change the side if it does not turn."""
@@ -142,11 +162,34 @@ class LookTask:
             self._idle = 0
 
 
+class FaceTask(LookTask):
+    """Turns towards the door of a room, where there is room for the body to turn.
+
+    Into a room in which somebody may lie the robot does not back, as it sees little behind.
+
+    Args:
+        chart: the map.
+        looker: body and detector.
+        pose: where the robot is.
+        door: place of the door.
+    """
+
+    def __init__(self, chart: SearchMap, looker: Looker, pose: Pose, door: Point) -> None:
+        super().__init__(chart, looker, pose, FACE_RADIUS)
+        self._door = door
+
+    def _is_done(self, pose: Pose) -> bool:
+        x, y = to_local(pose, self._door)
+        gone_round = super()._is_done(pose)
+        return gone_round or self._rate == 0.0 or abs(math.atan2(y, x)) < FACED
+
+
 class PersonTask:
     """Goes to the nearest person that was found and was not gone to before.
 
-    If nobody was found, but somebody has answered, it goes to where the voice tells more. Where no
-    way leads to a person, it looks from the nearest place that it can reach.
+    If nobody was found, but somebody else has answered, it goes to where the voice tells more. If
+    nobody is heard either, it looks at those who may be people. Where no way leads to a person, it
+    looks from the nearest place that it can reach.
 
     Args:
         chart: the map.
@@ -172,7 +215,7 @@ class PersonTask:
         self._target: Pose | None = None
         self._tried: list[Point] = []
         self._waited = self._looked = 0
-        self._done = False
+        self._careful, self._done = True, False
         self._last: Pose | None = None
 
     def next_step(self, pose: Pose, seen: Percepts) -> FindingStep:
@@ -181,34 +224,52 @@ class PersonTask:
             self._done = True
         if self._done:
             return FindingStep()
-        if self._person is None:
-            self._person = self._nearest(pose, seen.people)
-        if self._person is None:
-            return FindingStep(self._places.next_place(pose, _clearest(seen.voices)))
+        if self._person is None and not self._finds(pose, seen.people, SURE):
+            towards = self._places.next_place(pose, _clearest(seen.voices, self._visited))
+            suspicion = self._chart.settings.suspicion
+            if towards is not None or not self._finds(pose, seen.people, suspicion):
+                return FindingStep(towards)
+        return self._step_before(pose, seen)
+
+    def _finds(self, pose: Pose, people: People, least: float) -> bool:
+        """Choose the nearest who is a person with a least probability and was not gone to before.
+
+        Returns whether there is somebody.
+        """
+        found = [place for place, share, reported in people if reported or share >= least]
+        new = [p for p in found if all(math.dist(p, v) >= SAME_PERSON for v in self._visited)]
+        self._person = min(new, key=lambda place: math.dist(place, pose[:2]), default=None)
+        self._tried, self._careful = [], True
+        return self._person is not None
+
+    def _step_before(self, pose: Pose, seen: Percepts) -> FindingStep:
+        """What to do to see the chosen person from near, unless it turns out to be nobody."""
+        assert self._person is not None
         near = [each for each in seen.people if math.dist(each[0], self._person) < SAME_PERSON]
-        self._person = near[0][0] if near else self._person
-        if self._target is None and len(self._tried) >= 2 * MOST_PLACES:
-            self._done = True
-        elif self._target is None:
+        voices = by_speaker(seen.voices).values()
+        if near:
+            self._person = near[0][0]
+        elif not any(_come_from(self._person, each) for each in voices):
+            self._person = self._target = None
+            return FindingStep()
+        if self._target is None:
             self._choose(pose)
         elif self._arrived(pose):
             self._look(any(reported for _, _, reported in near))
         elif self._stays(pose):
             self._target = None
-        return FindingStep(self._target, careful=len(self._tried) < MOST_PLACES)
-
-    def _nearest(self, pose: Pose, people: People) -> Point | None:
-        found = [place for place, share, reported in people if reported or share >= SURE]
-        new = [p for p in found if all(math.dist(p, v) >= SAME_PERSON for v in self._visited)]
-        return min(new, key=lambda place: math.dist(place, pose[:2]), default=None)
+        return FindingStep(self._target, careful=self._careful)
 
     def _choose(self, pose: Pose) -> None:
-        """Take the next place before the person."""
+        """Take the next place before the person, if one is left to be tried."""
         assert self._person is not None
+        if len(self._tried) == MOST_PLACES:
+            self._done, self._careful, self._tried = not self._careful, False, []
+        if self._done:
+            return
         half_width = self._looker.robot.width / 2 + 0.03
         ways = ways_from(self._chart, pose[:2], half_width)
-        tried = self._tried if len(self._tried) < MOST_PLACES else []
-        told = self._chart, ways, self._looker, self._person, tried
+        told = self._chart, ways, self._looker, self._person, self._tried
         self._target = place_before(*told) or place_towards(*told)
         self._tried.append(self._person if self._target is None else self._target[:2])
         self._waited = self._looked = 0
@@ -239,12 +300,21 @@ class PersonTask:
         return self._waited > self._chart.settings.patience
 
 
-def _clearest(voices: Sequence[PersonVoice]) -> list[HeardVoice]:
-    """The directions of the speaker who was heard most clearly."""
-    if not voices:
-        return []
-    person = min(voices, key=lambda each: each.voice.std).person
-    return [each.voice for each in voices if each.person == person]
+def _clearest(voices: Sequence[PersonVoice], known: Sequence[Point]) -> list[HeardVoice]:
+    """The directions of the speaker who was heard most clearly, and is not at a known place."""
+    speakers = by_speaker(voices).values()
+    others = [each for each in speakers if not any(_come_from(place, each) for place in known)]
+    return min(others, key=lambda each: min(voice.std for voice in each), default=[])
+
+
+def _come_from(place: Point, voices: Sequence[HeardVoice]) -> bool:
+    """Whether all directions of a voice may be those of somebody at a place."""
+    x, y = place
+    return all(
+        abs(wrap_angle(math.atan2(y - v.pose[1], x - v.pose[0]) - v.direction))
+        <= SAME_DIRECTION * v.std
+        for v in voices
+    )
 
 
 def _is_with(pose: Pose, person: Point) -> bool:
@@ -256,7 +326,7 @@ def _axle(pose: Pose, axle: float) -> Point:
     return pose[0] + axle * math.cos(pose[2]), pose[1] + axle * math.sin(pose[2])
 
 
-def _place_to_turn(chart: SearchMap, looker: Looker, pose: Pose) -> Pose | None:
+def _place_to_turn(chart: SearchMap, looker: Looker, pose: Pose, radius: float) -> Pose | None:
     """The nearest place where the body can turn about its axle; None for where it is."""
     robot = looker.robot
     ways = ways_from(chart, pose[:2], robot.width / 2 + 0.03)
@@ -268,7 +338,7 @@ def _place_to_turn(chart: SearchMap, looker: Looker, pose: Pose) -> Pose | None:
         return None
     points = chart.grid.points(cells)
     away = np.hypot(*(points - pose[:2]).T)
-    costs = np.where(away <= TURN_RADIUS, ways.costs[tuple(cells.T)], np.inf)
+    costs = np.where(away <= radius, ways.costs[tuple(cells.T)], np.inf)
     best = int(np.argmin(costs))
     if not math.isfinite(costs[best]):
         return None

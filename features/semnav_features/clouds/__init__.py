@@ -10,7 +10,7 @@ It needs no simulator: the points may come from a real robot.
 from semnav_features.clouds.clusters import euclidean_clusters
 from semnav_features.clouds.crop import CropBox, crop
 from semnav_features.clouds.detected_door import DetectedDoor, expect_door
-from semnav_features.clouds.finder import DoorFinder, find_door
+from semnav_features.clouds.finder import DoorFinder, find_door, find_shut_door
 from semnav_features.clouds.joined import joined
 from semnav_features.clouds.lidar_doors import door_in_scene
 from semnav_features.clouds.mes import MesDetector, MesStep
@@ -33,6 +33,7 @@ __all__ = [
     "euclidean_clusters",
     "expect_door",
     "find_door",
+    "find_shut_door",
     "fused",
     "joined",
     "pair_apart",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from semnav_env.language.references import DoorReference, Side
 from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
@@ -83,11 +84,14 @@ def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:
     """The door of "leave the room": the doorway by which the robot has just come.
 
     A robot that has not come through a door leaves by the only door in view. Where not everything
-    has been seen, it takes the most open door, and searches for one if none is open.
+    has been seen, it takes the most open door, and searches for one if none is open. A room that it
+    has searched it leaves as if it had not moved since then: furniture may hide the door from it.
 
     Raises:
         UnclearError: there is no door, or there are several.
     """
+    if situation.searched_from is not None:
+        situation = replace(situation, begin=situation.searched_from, searched_from=None)
     scene, begin, rules = situation.scene, situation.begin, situation.rules.grounding
     inward = begin
     door = doorway_at(scene, inward)

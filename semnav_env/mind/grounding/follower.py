@@ -90,6 +90,7 @@ class Follower:
     _found: Goal | None = field(default=None, init=False, repr=False)
     _way: Way | None = field(default=None, init=False, repr=False)
     _inside: bool = field(default=False, init=False, repr=False)
+    _searched_from: Pose | None = field(default=None, init=False, repr=False)
     _trail: Trail = field(default_factory=lambda: Trail(ORIGIN), init=False, repr=False)
 
     def start(self, scene: Scene, pose: Pose) -> None:
@@ -104,7 +105,7 @@ class Follower:
             inspection_angle=self.rules.grounding.inspection_angle,
         )
         self.skipped, self._beside, self._entry = frozenset(), None, None
-        self._inside = False
+        self._inside, self._searched_from = False, None
         self._begin_clause(scene, pose, pose)
 
     @property
@@ -147,6 +148,10 @@ class Follower:
         along = to_local(ahead, lookout[:2])[0]
         if along > self.progress["farthest_along"][0]:
             self._write(farthest=lookout[:2], farthest_along=along)
+
+    def note_doorway(self, pose: Pose) -> None:
+        """Note that the robot has just crossed the line of a door, so that it may go back there."""
+        self._trail.note_doorway(pose)
 
     def target(self, pose: Pose) -> Goal:
         """The target of a robot at a pose: the goal of the clause, or the next place on its way."""
@@ -218,6 +223,7 @@ class Follower:
             self._lookouts,
             wall=wall_beside(self.command.clauses, self.active),
             inside=self._inside or (self._way is not None and _is_there(self._way)),
+            searched_from=self._searched_from,
             rules=self.rules,
         )
 
@@ -239,6 +245,9 @@ class Follower:
             case StopGoal():
                 pass  # it stays where the clause before led to
         roamed = isinstance(self.goal, StopGoal) and self.goal.roams
+        if roamed or not isinstance(self.goal, StopGoal):
+            searched = roamed and isinstance(self.command.clauses[self.active], SearchRoom)
+            self._searched_from = self.begin if searched else None
         self._inside = self.leads_in
         if not self._inside:
             self._go_on(after(self.command.clauses, self.active))

@@ -35,6 +35,8 @@ class Situation:
         back: whether `begin` is turned around, see `towards`.
         wall: the side along whose wall to keep; None for none.
         inside: whether the robot has gone into the room that the clause names.
+        searched_from: pose at which the search of the room began in which the robot is; None if it
+            has searched none.
         rules: distances and tolerances.
     """
 
@@ -50,6 +52,7 @@ class Situation:
     back: bool = False
     wall: Side | None = None
     inside: bool = False
+    searched_from: Pose | None = None
     rules: Rules = field(default=Rules(), repr=False)
 
     @cached_property

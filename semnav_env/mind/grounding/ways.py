@@ -120,17 +120,21 @@ class Trail:
     def note(self, pose: Pose) -> None:
         """Add the robot's present position; call it often."""
         here = pose[:2]
-        if math.dist(here, self._places[-1]) < WAY_SPACING:
-            return
-        met = (
-            k
-            for k, place in enumerate(self._places[:-1])
-            if math.dist(here, place) < WAY_SPACING / 2
-        )
-        if (first := next(met, None)) is not None:
-            del self._places[first + 1 :]
-        else:
+        if math.dist(here, self._places[-1]) >= WAY_SPACING and not self._closes_loop(here):
             self._places.append(here)
+
+    def note_doorway(self, pose: Pose) -> None:
+        """Add a position in a doorway, which the line between two other places may miss."""
+        self._closes_loop(pose[:2])
+        self._places.append(pose[:2])
+
+    def _closes_loop(self, here: Point) -> bool:
+        """Whether the trail has been at a place before; then the loop since then is left out."""
+        for k, place in enumerate(self._places[:-1]):
+            if math.dist(here, place) < WAY_SPACING / 2:
+                del self._places[k + 1 :]
+                return True
+        return False
 
     def back(self, pose: Pose) -> Way:
         """The way back to the pose at which the trail began."""

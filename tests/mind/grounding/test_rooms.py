@@ -30,6 +30,7 @@ from semnav_env.language import (
 )
 from semnav_env.language.rooms import plain_name, spoken_names
 from semnav_env.mind.grounding import GroundingError, PassGoal, ReachGoal, SeekGoal, ground
+from semnav_env.mind.grounding.crossing import first_crossed
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.known_way import next_on_way
 from semnav_env.mind.grounding.ways import WAY_SPACING, Trail, Way, paced
@@ -291,6 +292,25 @@ def test_a_trail_leads_back_to_its_start_without_loops(corners: list[tuple[float
     kept = np.array(back.places[1:])
     for k, place in enumerate(kept):
         assert (np.hypot(*(kept[k + 1 :] - place).T) >= WAY_SPACING / 2 - 1e-9).all()
+
+
+@given(st.floats(-2.0, 2.0), st.floats(-3.0, 3.0), st.floats(0.0, 1.5))
+def test_a_trail_through_a_door_leads_back_through_it(
+    begin: float, aside: float, phase: float
+) -> None:
+    """Its places are so far apart that the line between two of them may cross the wall beside."""
+    door = np.array([[-0.45, 0.0, 0.45, 0.0]])
+    trail = Trail((begin, -0.6 - phase, 0.0))
+    line = [(begin, -0.6 - phase), (0.0, -0.6), (0.0, 0.3), (aside, 0.7), (aside, 2.0)]
+    for (ax, ay), (bx, by) in pairwise(line):
+        for share in np.linspace(0.0, 1.0, 50):
+            pose = (ax + share * (bx - ax), ay + share * (by - ay), 0.0)
+            last = (ax + (share - 0.02) * (bx - ax), ay + (share - 0.02) * (by - ay))
+            if (ax, bx) == (0.0, 0.0) and last[1] <= 0.0 < pose[1]:
+                trail.note_doorway(pose)
+            trail.note(pose)
+    places = trail.back((*line[-1], 0.0)).places
+    assert any(first_crossed(door, *a, *b) == 0 for a, b in pairwise(places))
 
 
 def test_a_way_is_driven_place_by_place_despite_drift() -> None:
