@@ -155,7 +155,7 @@ class Arguments:
 
     def _frozen(self, name: str) -> _DemoTask:
         """The task of a frozen episode, with the noise and the limit of `evaluate`."""
-        from semnav_agents.evaluation.runner import EPISODE_SECONDS
+        from semnav_agents.evaluation.jobs import EPISODE_SECONDS
         from semnav_env.judge.episodes import Expected, find_episode
 
         others = ("command", "map", "language", "pose", "seed")

@@ -29,9 +29,10 @@ from semnav_agents.evaluation import (
     summarise,
     usual_agent,
 )
+from semnav_agents.evaluation.jobs import SuiteJob, suite_jobs
 from semnav_agents.evaluation.provenance import provenance
 from semnav_agents.evaluation.resuming import parts_left, results_so_far, rows_so_far
-from semnav_agents.evaluation.runner import JOBS_OF_A_SHARE, SuiteJob, suite_jobs
+from semnav_agents.evaluation.runner import JOBS_OF_A_SHARE
 from semnav_agents.learned import agent_label
 from semnav_env.judge.episodes import Episode, Expected, evenly, is_episodes, load_episodes
 from semnav_env.rendering.backend import load_pygame

@@ -16,7 +16,7 @@ from rich.table import Table
 from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_agents.evaluation.drive import drive
-from semnav_agents.evaluation.runner import EPISODE_SECONDS
+from semnav_agents.evaluation.jobs import EPISODE_SECONDS
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import Episode, evenly, load_episodes

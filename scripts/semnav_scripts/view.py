@@ -11,9 +11,10 @@ from tyro.conf import Positional, arg
 
 from semnav_agents.evaluation import Result
 from semnav_agents.evaluation.drive import Watch, drive
+from semnav_agents.evaluation.jobs import SuiteJob
 from semnav_agents.evaluation.kept_results import KeptResult, is_results, read_kept_result
 from semnav_agents.evaluation.provenance import rules_fingerprint
-from semnav_agents.evaluation.runner import SuiteJob, SuiteSetup, make_env
+from semnav_agents.evaluation.runner import SuiteSetup, make_env
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
 from semnav_env.judge.episodes import find_episode, load_episodes

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from semnav_agents.evaluation import SUITES, Trial, run_suite, suite
+from semnav_agents.evaluation.conclusion import NO_EXTRAS
 from semnav_agents.evaluation.drive import drive
-from semnav_agents.evaluation.runner import EPISODE_SECONDS, NO_EXTRAS, SuiteJob
+from semnav_agents.evaluation.jobs import EPISODE_SECONDS, SuiteJob
 from semnav_agents.evaluation.suites import JOINED
 from semnav_agents.registry import make_agent
 from semnav_agents.scripted import ScriptedAgent

@@ -9,7 +9,7 @@ import pytest
 
 from semnav_agents.evaluation import SUITES, runner, suite, summarise, usual_agent
 from semnav_agents.evaluation.drive import drive
-from semnav_agents.evaluation.runner import TRIAL_SECONDS, SuiteJob
+from semnav_agents.evaluation.jobs import TRIAL_SECONDS, SuiteJob
 from semnav_agents.evaluation.suites import Trial
 from semnav_agents.hearing.agent import HearingAgent
 from semnav_agents.registry import make_agent

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from semnav_agents.evaluation import run_suite, runner, summarise
+from semnav_agents.evaluation.jobs import suite_jobs
 from semnav_agents.evaluation.resuming import results_so_far, rows_so_far
-from semnav_agents.evaluation.runner import suite_jobs
 from semnav_env.judge.episodes import Expected, load_episodes
 from semnav_scripts.main import main
 from tests.support.evaluated import statues

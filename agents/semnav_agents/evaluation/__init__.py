@@ -1,6 +1,7 @@
 """Measures agents: suites of trials, a runner, results and summaries."""
 
 from semnav_agents.evaluation.ambiguity import interpreter_of, misreading
+from semnav_agents.evaluation.conclusion import Extras, conclude
 from semnav_agents.evaluation.drive import Drive, drive
 from semnav_agents.evaluation.results import (
     LeftOut,
@@ -10,7 +11,7 @@ from semnav_agents.evaluation.results import (
     failure_line,
     summarise,
 )
-from semnav_agents.evaluation.runner import Extras, conclude, run_suite
+from semnav_agents.evaluation.runner import run_suite
 from semnav_agents.evaluation.suites import SUITES, Trial, suite, usual_agent
 
 __all__ = [

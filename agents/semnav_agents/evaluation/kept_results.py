@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from semnav_agents.evaluation.attempts import MAX_BYTES, result_row
-from semnav_agents.evaluation.runner import SuiteJob, SuiteSetup
+from semnav_agents.evaluation.jobs import SuiteJob
+from semnav_agents.evaluation.runner import SuiteSetup
 from semnav_agents.evaluation.suites import SUITES
 from semnav_env.judge.episodes import SPLITS, find_episode
 from semnav_env.plain_settings import from_plain

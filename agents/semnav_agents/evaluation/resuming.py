@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from semnav_agents.evaluation.attempts import MAX_BYTES, result_row
+from semnav_agents.evaluation.jobs import SuiteJob
 from semnav_agents.evaluation.results import Result
-from semnav_agents.evaluation.runner import SuiteJob
 from semnav_env.judge import Verdict
 from semnav_env.judge.episodes import Episode
 from semnav_env.judge.metrics import Metrics

@@ -4,29 +4,25 @@ from __future__ import annotations
 
 import multiprocessing
 import pickle
-import re
-import zlib
 from collections.abc import Iterator, Sequence
-from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
-from semnav_agents.evaluation.drive import Drive, drive
-from semnav_agents.evaluation.results import LeftOut, Result, failure_line
+from semnav_agents.evaluation.conclusion import NO_EXTRAS, Extras, file_stem
+from semnav_agents.evaluation.drive import drive
+from semnav_agents.evaluation.jobs import SuiteJob, suite_jobs
+from semnav_agents.evaluation.results import LeftOut, Result
 from semnav_agents.evaluation.suites import Trial
 from semnav_agents.evaluation.together import CannotBegin, drive_together
 from semnav_agents.registry import AgentSource, make_agent, make_team
 from semnav_agents.team import AgentTeam
 from semnav_env.env import SemNavEnv
-from semnav_env.judge.episodes import Episode, Expected
+from semnav_env.judge.episodes import Episode
 from semnav_env.mind.observations import ObservationType
 from semnav_env.rendering.film import Film
 from semnav_env.rescue.environment import (
-    MAX_SEARCH_SECONDS,
     VICTIMS,
     search_and_rescue,
     search_and_rescue_vector,
@@ -34,39 +30,8 @@ from semnav_env.rescue.environment import (
 from semnav_env.robots import RobotSpec
 from semnav_env.vector import SemNavVectorEnv
 from semnav_env.world.dynamics import NO_DYNAMICS, Dynamics
-from semnav_env.world.dynamics.victims import with_victims
-from semnav_env.world.maps import FloorPlan
-from semnav_env.world.maps.placement import MAX_DRAWS, has_room, placement_error
-from semnav_features.frames import Pose
 from semnav_features.interruption import for_this_process_alone
 from semnav_features.lidar_spec import LidarSpec
-
-
-@dataclass(frozen=True)
-class Extras:
-    """Further outputs of a driven episode.
-
-    Attributes:
-        recheck: judge it a second time, by other code.
-        pictures: folder for a picture of each failure.
-        films: folder for a film of each failure, for which it is driven a second time.
-        keep: keep the drive of each failure, `Result.kept`.
-    """
-
-    recheck: bool = False
-    pictures: Path | None = None
-    films: Path | None = None
-    keep: bool = False
-
-
-NO_EXTRAS = Extras()
-"""No further outputs: only drive and measure."""
-
-FINDING_SECONDS = 900.0
-"""Time limit of a trial in which people are found as told, simulated seconds."""
-
-TRIAL_SECONDS, EPISODE_SECONDS = 120.0, 300.0
-"""Time limits of a trial and of a frozen episode, whose routes are longer; simulated seconds."""
 
 MAX_TOGETHER = 16
 """The most episodes that a process drives at once."""
@@ -77,9 +42,6 @@ JOBS_OF_A_SHARE = 32
 STEPS_PER_FILM_FRAME = 15
 """Steps between the frames of a failure's film, one second: it runs five times as fast as the
 robot, and the longest has 300 frames of 2 MB in memory."""
-
-MAX_NAME_LENGTH = 90
-"""Characters of a command in the name of a picture; file names end at 255 bytes."""
 
 
 @dataclass(frozen=True)
@@ -152,81 +114,6 @@ def _outcomes(
     with pool:
         for some in pool.imap(_work, shares):
             yield from some
-
-
-@dataclass(frozen=True)
-class SuiteJob:
-    """A trial with a seed, or a frozen episode, whose seed is its number."""
-
-    trial: Trial | Episode
-    seed: int
-
-    @property
-    def is_search(self) -> bool:
-        """Whether people are searched."""
-        return isinstance(self.trial, Trial) and self.trial.is_search
-
-    @property
-    def person_in(self) -> str:
-        """The room in which a person is to be found; empty for none."""
-        return self.trial.person_in if isinstance(self.trial, Trial) else ""
-
-    @property
-    def max_seconds(self) -> float:
-        """Time limit, simulated seconds."""
-        if self.is_search:
-            return FINDING_SECONDS if self.person_in else MAX_SEARCH_SECONDS
-        return EPISODE_SECONDS if isinstance(self.trial, Episode) else TRIAL_SECONDS
-
-    @property
-    def name(self) -> str:
-        """For the names of files: the command, or the id of the episode."""
-        return self.trial.id if isinstance(self.trial, Episode) else self.trial.command
-
-    def options(self, env: SemNavEnv) -> dict[str, Any]:
-        """The options with which an environment begins it; the seed scatters a trial's start."""
-        if isinstance(self.trial, Episode):
-            return {"episode": self.trial}
-        drawn = env.plan_source.plan(self.trial.floor_plan)  # furniture keeps off the pose
-        rng = np.random.default_rng(self.seed)
-        pose = scattered(self.trial, drawn, env.robot, rng)
-        told: dict[str, Any] = {
-            "command": self.trial.command,
-            "floor_plan": self.trial.floor_plan,
-        }
-        if self.person_in:
-            told["floor_plan"] = with_victims(drawn, 1, env.robot, rng, pose[:2], self.person_in)
-        return {**told, "pose": pose}
-
-    def named_in_errors(self) -> AbstractContextManager[None]:
-        """Add the id of a frozen episode to errors."""
-        if isinstance(self.trial, Episode):
-            return self.trial.named_in_errors()
-        return nullcontext()
-
-    def left_out(self, why: str) -> LeftOut:
-        """That it cannot begin."""
-        episode = self.trial.id if isinstance(self.trial, Episode) else ""
-        return LeftOut(self.trial.command, self.seed, why, episode)
-
-    def result(self, driven: Drive, extras: Extras = NO_EXTRAS) -> Result:
-        """The result of its drive."""
-        if not isinstance(self.trial, Episode):
-            return conclude(driven, self.trial.command, self.seed, extras, group=self.trial.group)
-        episode = self.trial
-        if episode.expected is Expected.INFEASIBLE:
-            driven, extras = driven.as_infeasible(), replace(extras, recheck=False)
-        told = episode.command, episode.number, extras
-        return conclude(driven, *told, episode=episode.id, group=episode.group)
-
-
-def suite_jobs(trials: Sequence[Trial | Episode], seeds: Sequence[int] = ()) -> list[SuiteJob]:
-    """Every trial with every seed, and every episode, in the order in which they are driven."""
-    return [
-        SuiteJob(trial, seed)
-        for trial in trials
-        for seed in ((trial.number,) if isinstance(trial, Episode) else seeds)
-    ]
 
 
 class SuiteRunner:
@@ -317,75 +204,6 @@ def _options(setup: SuiteSetup, job: SuiteJob) -> dict[str, Any]:
         "dynamics": dynamics,
         "max_seconds": job.max_seconds,
     }
-
-
-def conclude(
-    driven: Drive,
-    command: str,
-    seed: int,
-    extras: Extras = NO_EXTRAS,
-    *,
-    episode: str = "",
-    group: str = "",
-) -> Result:
-    """The result of a driven episode, with a second opinion and a picture of a failure if wanted.
-
-    Args:
-        driven: the episode.
-        command: name of the command in the results.
-        seed: of the episode.
-        extras: what else to do.
-        episode: id of a frozen episode; otherwise empty.
-        group: name under which it is counted; the command if empty.
-    """
-    result = Result(
-        command=command,
-        seed=seed,
-        verdicts=tuple(str(verdict) for verdict in driven.judge.verdicts),
-        metrics=driven.metrics,
-        cause=driven.cause,
-        rechecked=driven.rechecked() if extras.recheck else "",
-        social=driven.social,
-        episode=episode,
-        group=group or command,
-        kind=driven.kind,
-        floor_plan=driven.judge.mission.floor_plan.name,
-        kept=driven.kept() if extras.keep and not driven.metrics.success else None,
-    )
-    if extras.pictures is not None and not result.success:
-        name = file_stem(driven, episode or command, seed)
-        said = failure_line(result)
-        driven.save_picture(
-            extras.pictures / f"{name}.png", said if episode else f"{command}: {said}"
-        )
-    return result
-
-
-def file_stem(driven: Drive, command: str, seed: int) -> str:
-    """The name of files about an episode; a long command is cut and gets a checksum."""
-    words = re.sub("[^a-z0-9]+", "_", command.lower()).strip("_")
-    if len(words) > MAX_NAME_LENGTH:
-        words = f"{words[:MAX_NAME_LENGTH]}_{zlib.crc32(command.encode()):08x}"
-    return f"{driven.judge.mission.floor_plan.name}-{words}-{driven.robot.name}-seed{seed}"
-
-
-def scattered(
-    trial: Trial, floor_plan: FloorPlan, robot: RobotSpec, rng: np.random.Generator
-) -> Pose:
-    """A random free pose around that of the trial, each part within its scatter.
-
-    Raises:
-        ValueError: none of `MAX_DRAWS` poses was free; says why the last was not.
-    """
-    x, y, heading = trial.pose
-    for _ in range(MAX_DRAWS):
-        x, y, heading = (
-            p + rng.uniform(-s, s) for p, s in zip(trial.pose, trial.scatter, strict=True)
-        )
-        if has_room(floor_plan, robot, (x, y, heading)):
-            return x, y, heading
-    why = placement_error(floor_plan, robot, (x, y, heading))
-    raise ValueError(f"{trial.group}: no free pose within {trial.scatter} of the start: {why}")
 
 
 class _Worker:

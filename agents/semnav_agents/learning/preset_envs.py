@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from stable_baselines3.common.vec_env import VecEnv, VecEnvWrapper
 from stable_baselines3.common.vec_env.base_vec_env import VecEnvStepReturn
 
-from semnav_agents.evaluation.runner import scattered
+from semnav_agents.evaluation.jobs import scattered
 from semnav_agents.evaluation.suites import Trial
 from semnav_agents.learning.compact import COMPACT_SIZE, CompactObserver
 from semnav_agents.learning.joined_vec_env import JoinedVecEnv
