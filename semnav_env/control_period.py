@@ -52,7 +52,7 @@ class RobotArrays(Structure):
 RobotArraysType = numba_type(RobotArrays)
 
 
-@kernel
+@kernel(shared=True)
 def run_period(
     robot: RobotArrays, drives: bool, forward: float, left: float, turn: float, seconds: float
 ) -> tuple[int, int]:

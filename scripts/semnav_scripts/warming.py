@@ -1,9 +1,9 @@
 """Compiles the kernels of all commands before they are needed.
 
-A kernel holds the code of all functions that it calls, and kernels that are compiled in one process
-share these parts. Therefore similar kernels, such as those for one robot and for many, are compiled
-in one process. Other groups, which share little, are compiled in parallel; kernels that two groups
-need are compiled by the first one.
+A kernel holds the code of all functions that it calls but of shared kernels, and kernels that are
+compiled in one process share these parts. Therefore similar kernels, such as those for one robot
+and for many, are compiled in one process. Other groups, which share little, are compiled in
+parallel; kernels that two groups need are compiled by the first one.
 """
 
 from __future__ import annotations
@@ -16,11 +16,15 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import redirect_stderr, redirect_stdout
+from itertools import islice
 from pathlib import Path
 from typing import NamedTuple
 
 STEPS = 20
 """Control periods of a drive that calls every kernel of an environment."""
+
+SEARCH_STEPS = 300
+"""Control periods of a search that calls every kernel of the searching agents."""
 
 SCANS = 12
 """Scans of the log that is read."""
@@ -56,11 +60,13 @@ def _warmed(name: str) -> WarmedGroup:
 
 
 def environments() -> None:
-    """One robot and many, with every kind of observation."""
+    """One robot and many, with every kind of observation, and people of every model."""
     import numpy as np
 
     from semnav_env.env import SemNavEnv
     from semnav_env.vector import SemNavVectorEnv
+    from semnav_env.world.dynamics import Dynamics
+    from semnav_env.world.dynamics.settings import MODELS
 
     for observation in ("semantic", "command"):
         env = SemNavEnv(observation=observation)
@@ -70,14 +76,27 @@ def environments() -> None:
         for _ in range(STEPS):
             env.step(np.full(2, 0.3))
             envs.step(np.full((2, 2), 0.3))
+    for model in MODELS:
+        env = SemNavEnv(dynamics=Dynamics(pedestrians=4, model=model, changing_doors=0.5))
+        env.reset(seed=0)
+        for _ in range(STEPS):
+            env.step([0.3, 0.0])
 
 
 def agents() -> None:
-    """Compile the kernels for planning paths and poses, and for describing routes."""
+    """Compile the kernels for planning paths and poses, for searches, and for describing routes."""
+    from semnav_agents import make_agent
+    from semnav_agents.base import steps
+    from semnav_env.rescue.environment import search_and_rescue
+
     told = "go through the second door on the right"
     for robot in ("wheelchair", "spot"):
         for agent in ("scripted", "oracle"):
             _run("demo", told, "--robot", robot, "--agent", agent, "--seed", "3")
+    searcher = make_agent("searcher")
+    env = search_and_rescue(observation=searcher.observation)
+    for _ in islice(steps(env, searcher, *env.reset(seed=1)), SEARCH_STEPS):
+        pass
     _run("approach", "--map", "office_cross", "--door", "west_north_2")
     _run("describe", "--map", "office_cross", "--from", "3,11.5,0", "--to", "west_north_2")
 
@@ -95,26 +114,10 @@ def logs() -> None:
         _run("map", "check", "office_cross")
 
 
-def searches() -> None:
-    """Compile the kernels for searches and for dynamics."""
-    from semnav_env.env import SemNavEnv
-    from semnav_env.world.dynamics import Dynamics
-    from semnav_env.world.dynamics.settings import MODELS
-
-    for agent in ("searcher", "explorer"):
-        _run("demo", "search the house", "--agent", agent, "--seed", "1")
-    for model in MODELS:
-        env = SemNavEnv(dynamics=Dynamics(pedestrians=4, model=model, changing_doors=0.5))
-        env.reset(seed=0)
-        for _ in range(STEPS):
-            env.step([0.3, 0.0])
-
-
 GROUPS: dict[str, Callable[[], None]] = {
     "environments": environments,
     "agents": agents,
     "logs": logs,
-    "searches": searches,
 }
 """Groups that are compiled in parallel."""
 

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -155,6 +156,12 @@ def test_a_full_disk_leaves_the_last_checkpoint(tmp_path, monkeypatch):
     assert Trainer.resume(TINY, tmp_path).steps == 2 * ROLLOUT
 
 
+def processor_seconds(process):
+    """What a running process has used."""
+    used = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[11:13]
+    return sum(map(int, used)) / os.sysconf("SC_CLK_TCK")
+
+
 TRAIN_LONG = """
 import sys
 from dataclasses import replace
@@ -166,24 +173,33 @@ sys.exit(main(["train", "long", "--out", sys.argv[1], "--steps", sys.argv[2], *s
 """
 
 
-@pytest.mark.parametrize("kills", [2, pytest.param(20, marks=pytest.mark.slow)])
-def test_a_training_that_is_killed_at_random_moments_learns_the_same(tmp_path, kills):
-    """By SIGTERM and SIGKILL in turn, as schedulers of clusters do it.
+@pytest.mark.parametrize(
+    ("kills", "seconds"), [(2, 8.0), pytest.param(20, 12.0, marks=pytest.mark.slow)]
+)
+def test_a_training_that_is_killed_at_random_moments_learns_the_same(tmp_path, kills, seconds):
+    """By SIGTERM and SIGKILL in turn, as schedulers of clusters do it, with `semnav train`.
 
-    At most a stretch is lost with each kill, so training gets on whatever happens.
+    A moment is given by the processor time of the training, at most so many seconds. At most a
+    stretch is lost with each kill, so training gets on whatever happens.
     """
     rng, stretch = np.random.default_rng(kills), 3 * ROLLOUT
-    total, reached, folder = 4 * kills * stretch, 0, tmp_path / "killed"
+    total, reached, folder = 100 * kills * stretch, 0, tmp_path / "killed"
     for number in range(kills):
         resume = ["--resume"] if (folder / CARD_FILE).exists() else []
         words = [sys.executable, "-c", TRAIN_LONG, folder, str(total), *resume]
         running = subprocess.Popen(list(map(str, words)), cwd=ROOT, stderr=subprocess.DEVNULL)
         while not resume and not (folder / CARD_FILE).exists():
             time.sleep(0.01)
-        time.sleep(rng.uniform(0.0, 8.0))
-        running.send_signal((signal.SIGTERM, signal.SIGKILL)[number % 2])
-        running.wait()
+        after = rng.uniform(0.0, seconds)
+        until = processor_seconds(running.pid) + after
+        while running.poll() is None and processor_seconds(running.pid) < until:
+            time.sleep(0.01)
+        assert running.poll() is None  # or nothing is killed
+        kill = (signal.SIGTERM, signal.SIGKILL)[number % 2]
+        running.send_signal(kill)
+        code = running.wait()
         now = Trainer.resume(LONG, folder).steps
+        print(f"{kill.name} after {after:.1f} s, exit code {code}: {now} decisions")
         assert now >= reached
         assert now % stretch == 0
         reached = now

@@ -15,15 +15,17 @@ from numba import from_dtype, types
 from semnav_features.kernels import cache_key
 from semnav_features.kernels.compile_notice import PATIENCE, CompileNotice
 from semnav_features.kernels.compiling import kernel
-from semnav_features.kernels.linking import NUMBA_FITS
+from semnav_features.kernels.linking import NUMBA_FITS, shared_kernels
 from tests.support.paths import ROOT
 from tests.support.small_kernels import (
     PairOfArraysType,
     counting,
     increased_twice,
+    mean,
     paired,
     sum_of_pair,
     sum_of_twice,
+    total,
     twice,
 )
 
@@ -46,6 +48,16 @@ def test_only_what_python_calls_becomes_callable_from_python():
     outer._cache.disable()
     assert outer(2) == 7
     assert (len(inner.body.overloads), len(inner.overloads)) == (1, 0)
+
+
+def test_a_shared_kernel_is_called_where_it_is():
+    values = np.arange(4.0)
+    assert mean(values) == mean.py_func(values)
+    [caller], [called] = mean.overloads.values(), total.overloads.values()
+    name = called.fndesc.llvm_func_name
+    assert [each[:2] for each in shared_kernels(caller.library)] == [(name, total)]
+    with pytest.raises(ValueError, match="no values"):
+        mean(values[:0])
 
 
 def test_numba_offers_what_linking_needs():
@@ -113,13 +125,14 @@ def test_a_kernel_is_pickled_and_copied_by_its_name():
     assert copy.deepcopy([twice]) == [twice]
 
 
-KERNELS = 5
-"""How many the next process compiles: those that Python calls."""
+KERNELS = 7
+"""How many the next process compiles: those that Python calls, and a shared one."""
 
 USE_KERNELS = """
 import numpy as np
 from tests.support import small_kernels as small
 print(small.sum_of_counting(4), small.counting(3))  # a caller first, then what it calls
+print(small.mean(np.arange(4.0)))
 print(small.sum_of_twice(np.arange(4.0)), small.twice(2.5), small.increased_twice(1))
 kernels = [k for k in vars(small).values() if hasattr(k, "stats")]
 print(sum(sum(kernel.stats.cache_misses.values()) for kernel in kernels))
@@ -163,6 +176,15 @@ def test_a_damaged_file_is_compiled_anew(tmp_path, content):
     files[0].write_bytes(content)
     files[1].write_bytes(files[1].read_bytes()[:-100])
     assert outcome(use_kernels(tmp_path))[:2] == (first, 2)
+    assert outcome(use_kernels(tmp_path))[:2] == (first, 0)
+
+
+def test_a_caller_fits_a_shared_kernel_that_was_compiled_anew(tmp_path):
+    """The machine code that it calls may have another name then."""
+    first, _, _ = outcome(use_kernels(tmp_path))
+    [shared] = tmp_path.rglob("*.total-*.bin")
+    shared.unlink()
+    assert outcome(use_kernels(tmp_path))[0] == first
     assert outcome(use_kernels(tmp_path))[:2] == (first, 0)
 
 

@@ -96,7 +96,7 @@ def test_warming_says_how_long_each_group_and_all_of_them_took(
         False,
         "no space left",
     )
-    assert " s, 4 processes on " in told["kernels, in all"]["detail"]
+    assert " s, 3 processes on " in told["kernels, in all"]["detail"]
 
 
 PROJECT = """[tool.setuptools.packages.find]

@@ -32,6 +32,18 @@ def sum_of_counting(n):
     return counting(n).sum()
 
 
+@kernel(shared=True)
+def total(values):
+    if len(values) == 0:
+        raise ValueError("no values")
+    return sum_of_twice(values) / 2.0
+
+
+@kernel
+def mean(values):
+    return total(values) / len(values)
+
+
 @structref.register
 class PairOfArraysType(ArraysType):
     pass

@@ -26,7 +26,7 @@ from semnav_features.kernels.segmentation import group_points
 from semnav_features.kernels.walls import fit_pieces, flag_pieces, select_walls
 
 
-@kernel
+@kernel(shared=True)
 def extract_arrays(
     ranges: FloatArray,
     directions: FloatArray,

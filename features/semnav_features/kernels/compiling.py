@@ -17,7 +17,7 @@ from numba.core.ccallback import CFunc
 
 from semnav_features.kernels import frames_in_kernels  # noqa: F401 - kernels call them
 from semnav_features.kernels.kernel_cache import keep_in_files
-from semnav_features.kernels.linking import NUMBA_FITS, LinkedKernel
+from semnav_features.kernels.linking import NUMBA_FITS, LinkedKernel, SharedKernel
 
 LINKS = NUMBA_FITS and not os.environ.get("SEMNAV_PLAIN_NUMBA")
 """Whether kernels are linked by `linking`, which compiles them faster."""
@@ -28,22 +28,27 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 @overload
 def kernel(function: Function) -> Function: ...
 @overload
-def kernel(*, inline: bool = False) -> Callable[[Function], Function]: ...
-def kernel(function: Callable[..., Any] | None = None, *, inline: bool = False) -> Any:
+def kernel(*, inline: bool = False, shared: bool = False) -> Callable[[Function], Function]: ...
+def kernel(
+    function: Callable[..., Any] | None = None, *, inline: bool = False, shared: bool = False
+) -> Any:
     """Decorate a kernel: a function of plain numbers, tuples, arrays and structures.
 
     Args:
         function: the function; without it, as in `@kernel(inline=True)`, a decorator is returned.
         inline: put the kernel's statements in place of each call, before types are known.
+        shared: let kernels that call it use one copy of its machine code. For large kernels that
+            Python calls as well.
     """
     if function is None:
-        return partial(kernel, inline=inline)
+        return partial(kernel, inline=inline, shared=shared)
     if inline:
         return njit(function, error_model="numpy", nogil=True, inline="always")
     options: Any = {"error_model": "numpy", "nogil": True}
     if getattr(config, "DISABLE_JIT", False):
         return njit(function, **options)
-    compiled = LinkedKernel(function, options) if LINKS else _plain(function, options)
+    linked = SharedKernel if shared else LinkedKernel
+    compiled = linked(function, options) if LINKS else _plain(function, options)
     keep_in_files(compiled, function)
     return compiled
 

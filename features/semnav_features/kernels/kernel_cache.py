@@ -20,6 +20,7 @@ from numba.core.serialize import dumps
 
 from semnav_features.kernels.cache_folder import cache_folder
 from semnav_features.kernels.cache_key import compiler_settings
+from semnav_features.kernels.linking import shared_kernels
 
 CHECKSUM_BYTES = 4
 """Size of the checksum that a file begins with."""
@@ -129,7 +130,8 @@ class KernelCache:
         path, key = self._entry(sig, data.codegen)
         if not data.lifted and not data.library.has_dynamic_globals:
             with suppress(Exception):  # a full disk, or what no pickle can hold
-                write_file(path, sealed(dumps((key, data._reduce()))))
+                called = shared_kernels(data.library)
+                write_file(path, sealed(dumps((key, called, data._reduce()))))
         TURNS.end(path)
 
     def disable(self) -> None:
@@ -143,11 +145,19 @@ class KernelCache:
         return cache_folder() / f"{self._name}.{sha256(key.encode()).hexdigest()[:20]}.bin", key
 
 
+def _is_there(name: str, kernel: Any, types: tuple[Any, ...]) -> bool:
+    """Load or compile a shared kernel; whether its machine code has the name that callers use."""
+    kernel.compile(types)
+    return bool(kernel.overloads[types].fndesc.llvm_func_name == name)
+
+
 def _loaded(path: Path, key: str, target_context: Any) -> Any:
     """The kernel in a file; None if there is none, and if it is damaged, which removes it."""
     try:
-        kept, payload = _KernelReader(io.BytesIO(unsealed(path.read_bytes()))).load()
-        return CompileResult._rebuild(target_context, *payload) if kept == key else None
+        kept, called, payload = _KernelReader(io.BytesIO(unsealed(path.read_bytes()))).load()
+        if kept == key and all(_is_there(*each) for each in called):
+            return CompileResult._rebuild(target_context, *payload)
+        return None
     except FileNotFoundError:
         return None
     except Exception:  # a damaged file may raise anything

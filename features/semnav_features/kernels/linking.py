@@ -20,6 +20,7 @@ from numba.core import compiler, dispatcher
 from numba.core.codegen import JITCodeLibrary
 from numba.core.environment import Environment
 from numba.core.registry import CPUDispatcher
+from numba.core.sigutils import normalize_signature
 
 _INNER = ("_optimize_final_module", "_finalize_final_module", "_finalize_dynamic_globals")
 NUMBA_FITS = (
@@ -46,7 +47,11 @@ class LinkedKernel(CPUDispatcher):
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """What another kernel needs to know to call this one; a literal counts as its type."""
         by_name = {name: types.unliteral(kind) for name, kind in kws.items()}
-        return self.body.get_call_template([types.unliteral(kind) for kind in args], by_name)
+        return self._template([types.unliteral(kind) for kind in args], by_name)
+
+    def _template(self, args: Any, kws: Any) -> Any:
+        """The same, for types that are no literals."""
+        return self.body.get_call_template(args, kws)
 
     def get_overload(self, sig: Any) -> Any:
         """What another kernel calls."""
@@ -59,6 +64,36 @@ class LinkedKernel(CPUDispatcher):
 
 def _kernel_named(module: str, name: str) -> Any:
     return attrgetter(name)(import_module(module))
+
+
+class SharedKernel(LinkedKernel):
+    """A kernel whose machine code is called by other kernels, which hold no copy of it.
+
+    It is optimised once, and a process that compiles one of its callers may load it from a file.
+    """
+
+    _template = CPUDispatcher.get_call_template
+
+    def get_overload(self, sig: Any) -> Any:
+        """What another kernel calls: the name of the machine code."""
+        arguments = tuple(normalize_signature(sig)[0])
+        made = self.overloads[arguments]
+        name = made.fndesc.llvm_func_name
+        if name not in _SHARED:
+            _SHARED[name] = self, arguments
+            self.targetctx.insert_user_function(name, made.fndesc)
+        return name
+
+
+_SHARED: dict[str, tuple[SharedKernel, tuple[Any, ...]]] = {}
+"""Shared kernels and types of their arguments by the name of their machine code."""
+
+
+def shared_kernels(library: JITCodeLibrary) -> list[tuple[str, SharedKernel, tuple[Any, ...]]]:
+    """Names, kernels and types of arguments of the shared kernels that a library calls."""
+    functions = library._final_module.functions
+    names = [function.name for function in functions if function.is_declaration]
+    return [(name, *_SHARED[name]) for name in names if name in _SHARED]
 
 
 class _BodyLibrary(JITCodeLibrary):

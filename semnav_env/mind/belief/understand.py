@@ -79,7 +79,7 @@ def read_ranges_in(senses: Senses, ranges: FloatArray) -> None:
     senses.ranges = ranges
 
 
-@kernel
+@kernel(shared=True)
 def understand(senses: Senses) -> int:
     """Take in the scan and the motion that stand in the senses; returns events.
 

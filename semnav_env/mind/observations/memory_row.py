@@ -36,7 +36,7 @@ _HALLWAY, _START = MEMORY_STARTS["hallway"], MEMORY_STARTS["start"]
 _HALF_WIDTH = _HALLWAY + HALLWAY.columns.index("half_width")
 
 
-@kernel
+@kernel(shared=True)
 def write_command_row(row: NDArray[np.float32], senses: Senses) -> None:
     """Write all entries, the scan, and what is remembered and told.
 

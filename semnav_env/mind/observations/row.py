@@ -45,7 +45,7 @@ _KIND, _PLACE = STARTS["goal"], column(GOAL, "x")
 _JAMBS, _HAS_DOOR = column(GOAL, "door_start_x"), column(GOAL, "has_door")
 
 
-@kernel
+@kernel(shared=True)
 def write_row(row: NDArray[np.float32], senses: Senses) -> None:
     """Write all entries; and the scan, if there is room for it.
 
