@@ -77,7 +77,7 @@ class SharedKernel(LinkedKernel):
     def get_overload(self, sig: Any) -> Any:
         """What another kernel calls: the name of the machine code."""
         arguments = tuple(normalize_signature(sig)[0])
-        made = self.overloads[arguments]
+        made: Any = self.overloads[arguments]
         name = made.fndesc.llvm_func_name
         if name not in _SHARED:
             _SHARED[name] = self, arguments
