@@ -12,7 +12,7 @@ from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.find import find_door
 from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
 from semnav_env.mind.grounding.goal_check import looks_along
-from semnav_env.mind.grounding.niches import at_the_back, depth_before
+from semnav_env.mind.grounding.niches import at_the_back
 from semnav_env.mind.grounding.search import Searching
 from semnav_env.mind.grounding.situation import Situation
 from semnav_env.mind.grounding.ways import Way, door_near
@@ -58,15 +58,13 @@ def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
         behind, line = door.pose(stand_off), door.pose(0.0)
         return PassGoal(behind, door.door, because, corridor=corridor, onward=line)
     accepted, inside = situation.rules.success, clause.approach is Approach.IN
-    depth = depth_before(door, situation.scene) if situation.complete and not inside else 0.0
-    return ReachGoal(  # its distance may be told from either face of a thick wall
-        door.pose(0.0 if inside else -stand_off - depth / 2),
-        accepted.door_distance / 2 if inside else accepted.door_distance + depth / 2,
+    return ReachGoal(
+        door.pose(0.0 if inside else -stand_off),
+        accepted.door_distance / 2 if inside else accepted.door_distance,
         accepted.door_heading,
         because,
         door.door,
         corridor=corridor,
-        offset_tolerance=accepted.door_distance if depth else None,
     )
 
 

@@ -1,4 +1,4 @@
-"""Tells how deep in a niche or a thick wall a door lies."""
+"""Finds the door at the back of a niche, whose mouth looks like a door, too."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from semnav_env.mind.grounding.counted_doors import CountedDoor
-from semnav_features.frames import Pose, heading_between, to_local, wrap_angle
+from semnav_features.frames import Pose, heading_between, to_local
 from semnav_features.scene import Door, Scene, Wall
 
 NICHE_DEPTH = 1.1
@@ -18,9 +18,6 @@ LEAST_DEPTH = 0.25
 MOST_ASIDE, MOST_TURNED = 0.4, math.sin(math.radians(15.0))
 """How far the middle of the door may lie beside that of the mouth, metres, and the sine of the
 angle between them."""
-
-REVEAL_MARGIN = 0.15
-"""How far beside a jamb the reveal of a door may lie, metres: its frame lies between."""
 
 SIDE_SHARE = 0.5
 """Least share of the depth along which a wall leads from the mouth to the door."""
@@ -40,21 +37,6 @@ def at_the_back(mouth: CountedDoor, scene: Scene) -> CountedDoor:
         if behind and turned < MOST_TURNED and _has_a_side(line, mouth.door, depth, scene):
             return replace(mouth, door=door)
     return mouth
-
-
-def depth_before(door: CountedDoor, scene: Scene) -> float:
-    """How far the reveals of a door lead towards the corridor, metres; 0 in a thin wall.
-
-    Walls that lead on for more than `NICHE_DEPTH` on that side are those of the corridor.
-    """
-    x, y, outward = door.pose(0.0)
-    line = x, y, wrap_angle(outward + math.pi)
-    sides = [0.0, 0.0]
-    for wall in scene.walls:
-        left = to_local(line, wall.start)[1] > 0.0
-        length = _along_side(line, wall, math.inf, door.door.width / 2 + REVEAL_MARGIN)
-        sides[left] = max(sides[left], length)
-    return min(sides) if max(sides) < NICHE_DEPTH else 0.0
 
 
 def _has_a_side(line: Pose, mouth: Door, depth: float, scene: Scene) -> bool:

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from semnav_env.mind.grounding import PassGoal, ReachGoal, ground
+from semnav_env.mind.grounding import PassGoal, ground
 from semnav_env.mind.grounding.goal import door_of
 from semnav_features.scene import Door, Scene, Wall
 from tests.support.grounded import START, clause
@@ -43,33 +43,6 @@ def test_the_door_at_the_back_of_a_niche_is_passed(scene: Scene, depth: float) -
     assert isinstance(goal, PassGoal)
     assert goal.door.midpoint == pytest.approx((MOUTH, 1.0 + depth))
     assert goal.pose[2] == pytest.approx(math.pi / 2)
-
-
-@pytest.mark.parametrize(
-    ("reveals", "is_thick"),
-    [(0.0, False), (0.5, True)],
-    ids=["a thin wall", "a thick wall"],
-)
-def test_the_place_before_a_door_is_told_from_either_face_of_its_wall(
-    reveals: float, is_thick: bool
-) -> None:
-    scene = corridor(left=(MOUTH,))
-    (door,) = scene.doors
-    sides = tuple(Wall((x, 1.0), (x, 1.0 - reveals)) for x, _ in (door.start, door.end) if reveals)
-    told = Scene((*scene.walls, *sides), scene.doors)
-    goal = ground(clause("go to the first door on the left"), told, START, complete=True)
-    assert isinstance(goal, ReachGoal)
-    most = 0.65  # of the 0.7 m that the place may be missed by
-    assert goal.reached_by((MOUTH, 0.1 + most, math.pi / 2))
-    assert goal.reached_by((MOUTH, 0.1 - 0.5 - most, math.pi / 2)) is is_thick
-
-
-def test_the_sides_of_a_narrow_hallway_are_no_thick_wall() -> None:
-    scene = corridor(half=0.5, end_door=True)
-    goal = ground(clause("go to the first door"), scene, START, complete=True)
-    assert isinstance(goal, ReachGoal)
-    assert goal.pose[:2] == pytest.approx((14.0 - 0.9, 0.0))
-    assert goal.offset_tolerance is None
 
 
 def test_it_counts_once() -> None:
