@@ -155,10 +155,8 @@ class Learner:
         shapes, weights = self.network.shape.tensors(), list(self.network.parameters())
         shapes |= adam_shapes(ADAM_PREFIX, {i: tuple(w.shape) for i, w in enumerate(weights)})
         check_tensors(tensors, shapes)
+        self.network.load(tensors)
         values = {name: torch.from_numpy(value.copy()) for name, value in tensors.items()}
-        with torch.no_grad():
-            for name, parameter in self.network.named().items():
-                parameter.copy_(values[name])
         moments = adam_moments(ADAM_PREFIX, values, range(len(weights)))
         groups = self.optimizer.state_dict()["param_groups"]
         self.optimizer.load_state_dict({"state": moments, "param_groups": groups})

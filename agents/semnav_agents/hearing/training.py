@@ -1,7 +1,8 @@
 """Training of an agent that hears: rounds of driving and learning, kept in one folder.
 
 Every random draw follows from the seed and the number of the round, the chunk or the epoch. After
-an interruption an unfinished chunk or epoch is repeated, and gives the same result.
+an interruption an unfinished chunk or epoch is repeated, and gives the same result. A preset that
+begins with the rounds of a finished training goes on from its weights with further rounds.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ import json
 import math
 import time
 from collections.abc import Iterator
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -29,7 +30,13 @@ from semnav_agents.hearing.torch_network import TorchGrounding
 from semnav_agents.learned import LearnedAgent
 from semnav_env.judge.episodes import Episode, load_episodes
 from semnav_env.networks.card import CARD_FILE, Card
-from semnav_env.networks.weights import load_tensors, save_tensors, save_weights
+from semnav_env.networks.weights import (
+    WEIGHTS_FILE,
+    load_tensors,
+    load_weights,
+    save_tensors,
+    save_weights,
+)
 from semnav_features.writing import replacing
 
 STATE_FILE, SAMPLES = "training.safetensors", "samples"
@@ -38,8 +45,8 @@ PROGRESS = "progress"
 """Name of the tensor that says after which round and epoch the state was saved."""
 
 MEASURED = 4000
-"""Samples of the last chunk of the first round on which the network is measured; it does not learn
-from that chunk."""
+"""Samples of the last chunk of a round on which the network is measured in that round; it learns
+from no such chunk, unless it is the only one of its round."""
 
 LAST_SHARE = 0.02
 """Share of a round's step size at its end."""
@@ -54,7 +61,8 @@ class HearingTrainer:
         seed: of weights, episodes, samples and their order.
 
     Raises:
-        ValueError: the folder holds a training with another preset or seed.
+        ValueError: the folder holds a training with another seed or with a preset whose rounds do
+            not begin those of this one.
     """
 
     def __init__(self, preset: HearingPreset, folder: Path, seed: int) -> None:
@@ -121,7 +129,7 @@ class HearingTrainer:
         if epoch == 0:  # a round begins with a fresh optimizer
             self.learner = Learner(self.network)
         loss = self.learner.epoch(samples, self.preset.batch_size, (rates[0], rates[1]), rng)
-        found = measured(self.network, self._held_out)
+        found = measured(self.network, self._held_out(number))
         progress = {PROGRESS: np.array((number, epoch))}
         save_tensors(self.folder / STATE_FILE, self.learner.state() | progress)
         save_weights(self.folder, self.network.arrays())
@@ -137,23 +145,18 @@ class HearingTrainer:
         return HearingAgent(network, LearnedAgent.load("drive") if name == "policy" else None)
 
     def _samples(self, number: int) -> Arrays:
-        """All samples so far, except those of the chunk that is held out."""
+        """All samples so far that are still in the folder, except the chunks that are held out."""
         files = [
             self._file(k, chunk)
             for k, each in enumerate(self.preset.rounds[: number + 1])
-            for chunk in range(self._chunks(each))
-            if (k, chunk) != self._held_out_chunk or self._chunks(self.preset.rounds[0]) == 1
+            for chunk in range(max(1, self._chunks(each) - 1))
         ]
-        parts = [_read(path) for path in files]
+        parts = [_read(path) for path in files if path.exists()]
         return {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
 
-    @property
-    def _held_out_chunk(self) -> tuple[int, int]:
-        return 0, self._chunks(self.preset.rounds[0]) - 1
-
-    @cached_property
-    def _held_out(self) -> Arrays:
-        return {name: v[:MEASURED] for name, v in _read(self._file(*self._held_out_chunk)).items()}
+    def _held_out(self, number: int) -> Arrays:
+        last = self._file(number, self._chunks(self.preset.rounds[number]) - 1)
+        return {name: values[:MEASURED] for name, values in _read(last).items()}
 
     def _file(self, number: int, chunk: int) -> Path:
         return self.folder / SAMPLES / f"round{number}-{chunk:04d}.npz"
@@ -176,17 +179,19 @@ class HearingTrainer:
 
     def _resume(self) -> None:
         card = Card.read(self.folder, NetworkShape)
-        for name, was, now in (
-            ("preset", card.preset, self.card.preset),
-            ("seed", card.seed, self.seed),
+        for name, same in (
+            ("preset", _begins(card.preset, self.card.preset)),
+            ("seed", card.seed == self.seed),
         ):
-            if was != now:
+            if not same:
                 raise ValueError(
                     f"{self.folder} was trained with another {name}; start anew with another --out"
                 )
-        self.card = card
+        self.card = replace(card, preset=self.card.preset)
         if (self.folder / STATE_FILE).exists():
             self._resume_state()
+        elif (self.folder / WEIGHTS_FILE).exists():
+            self.network.load(load_weights(self.folder, self.preset.shape.tensors()))
 
     def _resume_state(self) -> None:
         """Go on from the saved state, which may be one epoch ahead of the card."""
@@ -195,7 +200,7 @@ class HearingTrainer:
         self.learner.load(tensors)
         if not self._has(number, epoch=epoch):
             save_weights(self.folder, self.network.arrays())
-            found = measured(self.network, self._held_out)
+            found = measured(self.network, self._held_out(number))
             row = {name: round(value, 4) for name, value in found.items() if math.isfinite(value)}
             self._note({"round": number, "epoch": epoch, **row})
 
@@ -203,6 +208,12 @@ class HearingTrainer:
 def plain_preset(preset: HearingPreset) -> dict[str, Any]:
     """A preset as plain data for a JSON file."""
     return dict(json.loads(json.dumps(asdict(preset))))
+
+
+def _begins(before: dict[str, Any], preset: dict[str, Any]) -> bool:
+    """Whether a plain preset is another one, or its first rounds."""
+    rounds = before.get("rounds", ())
+    return before == preset | {"rounds": preset["rounds"][: len(rounds)]}
 
 
 def _rate(each: HearingRound, epoch: int) -> float:

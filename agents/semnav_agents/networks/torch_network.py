@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 import torch
@@ -43,6 +44,12 @@ class TorchNetwork(nn.Module):
     def arrays(self) -> dict[str, NDArray[np.float32]]:
         """Copies of the parameters as arrays, as the network in NumPy takes them."""
         return {name: tensor.detach().numpy().copy() for name, tensor in self.named().items()}
+
+    def load(self, arrays: Mapping[str, NDArray[Any]]) -> None:
+        """Take the values of a result of `arrays`."""
+        with torch.no_grad():
+            for name, parameter in self.named().items():
+                parameter.copy_(torch.from_numpy(arrays[name].copy()))
 
     def of(self, name: str) -> Tensor:
         """The parameter of a name."""

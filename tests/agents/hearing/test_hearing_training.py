@@ -14,7 +14,7 @@ from semnav_agents.hearing.learning import batches  # noqa: E402
 from semnav_agents.hearing.mirror import mirrored  # noqa: E402
 from semnav_agents.hearing.network import NetworkShape  # noqa: E402
 from semnav_agents.hearing.presets import HEARING_PRESETS, HearingRound  # noqa: E402
-from semnav_agents.hearing.training import HearingTrainer  # noqa: E402
+from semnav_agents.hearing.training import STATE_FILE, HearingTrainer  # noqa: E402
 from semnav_agents.registry import make_agent  # noqa: E402
 from semnav_env.env import SemNavEnv  # noqa: E402
 from semnav_env.networks.card import CARD_FILE, Card  # noqa: E402
@@ -78,6 +78,29 @@ def test_kill_between_state_and_card_loses_nothing(trained, tmp_path):
     assert len(Card.read(tmp_path, NetworkShape).curve) == len(trained[1])
     before, after = (load_tensors(folder / WEIGHTS_FILE) for folder in (trained[0], tmp_path))
     assert all(np.array_equal(before[name], after[name]) for name in before)
+
+
+def test_further_rounds_go_on_from_the_weights_of_a_finished_training(trained, tmp_path):
+    longer = replace(TINY, rounds=(*TINY.rounds, HearingRound(1, 1)))
+    straight = list(HearingTrainer(longer, tmp_path / "straight", seed=0).advance())
+    shutil.copytree(trained[0], tmp_path / "later")
+    (tmp_path / "later" / STATE_FILE).unlink()  # a bundled agent has weights and card alone
+    assert len(list(HearingTrainer(longer, tmp_path / "later", seed=0).advance())) == 2
+    whole, parts = (load_tensors(tmp_path / at / WEIGHTS_FILE) for at in ("straight", "later"))
+    assert all(np.array_equal(whole[name], parts[name]) for name in whole)
+    assert len(Card.read(tmp_path / "later", NetworkShape).curve) == len(straight)
+
+
+def test_a_preset_with_other_first_rounds_is_refused(trained):
+    other = replace(TINY, rounds=(HearingRound(1, 1), *TINY.rounds))
+    with pytest.raises(ValueError, match="another preset"):
+        HearingTrainer(other, trained[0], seed=0)
+
+
+def test_the_last_chunk_of_a_round_is_not_learned_from(trained):
+    trainer = HearingTrainer(TINY, trained[0], seed=0)
+    learned = [row["samples"] for row in trained[1] if row.get("chunk") == 0]
+    assert len(trainer._samples(1)["count"]) == sum(learned)
 
 
 def test_other_seed_is_refused(trained):
