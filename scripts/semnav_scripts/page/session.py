@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import gc
 import json
 import queue
 import threading
@@ -17,6 +16,7 @@ from semnav_env.world.dynamics.social import for_json
 from semnav_features.validation import clipped
 from semnav_scripts.page.drawing_board import DrawingBoard
 from semnav_scripts.page.drive import PageDrive
+from semnav_scripts.page.freeing import free_memory
 from semnav_scripts.page.kept_files import kept_file, plan_file
 from semnav_scripts.page.outbox import ClientTooSlowError, Outbox
 from semnav_scripts.page.requests import (
@@ -103,6 +103,9 @@ class PageSession(threading.Thread):
                     self._attempt(partial(self._do, request))
         except ClientTooSlowError:
             self._ended.set()
+        finally:
+            self._drive = self._board = None
+            free_memory()
 
     def _patience(self) -> float | None:
         """Time until the next step is due, seconds; None if none is."""
@@ -130,7 +133,7 @@ class PageSession(threading.Thread):
                 self._drive, self._asked = PageDrive(request, own), None
                 self._tell(self._drive.scene_message())
                 self._show()
-                gc.collect()  # the world before is a cycle of large arrays
+                free_memory()
             case CommandRequest(text=text, language=language):
                 rooms = self._scene().env.floor_plan.room_names
                 self._heed(understand(text, language, rooms))
@@ -152,6 +155,7 @@ class PageSession(threading.Thread):
                 self._outbox.put_news(plan_file(self._opened_board().plan))
             case KeepRequest(what=what):
                 self._outbox.put_news(kept_file(what, self._scene()))
+                free_memory()
             case FileRequest(name=name, content=content):
                 self._file_waits.clear()
                 self._board = DrawingBoard.from_file(name, content)
