@@ -83,10 +83,8 @@ class GroundingRules:
         straight_way_angle: a known way that turns by less than this leads straight on, radians.
         wall_distance: distance of the robot's centre from the wall along which it keeps, metres:
             half a body and room to drive at its usual speed.
-        jamb_margin: distance beside a seen jamb at which a crossing still counts for the robot,
-            metres: seen jambs are not exact.
-        clear_distance: distance behind a seen door at which the robot has passed it, metres: the
-            door may lie at the far face of a thick wall, and only the near one is seen.
+        jamb_margin: distance beside a seen jamb at which a crossing still counts for the robot, and
+            behind the door that the robot must be, metres: seen jambs are not exact.
         care: share of a success tolerance within which the robot itself takes a goal as reached;
             the robot must be well inside the tolerance of the judge.
     """
@@ -128,7 +126,6 @@ class GroundingRules:
     straight_way_angle: Angle = 0.6
     wall_distance: Length = 0.6
     jamb_margin: Length = 0.3
-    clear_distance: Length = 0.6
     care: Share = 0.5
 
     def __post_init__(self) -> None:

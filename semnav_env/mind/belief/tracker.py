@@ -189,7 +189,6 @@ class BeliefTracker:
             complete=self.known_scene is not None,
             care=self.rules.grounding.care,
             jamb_margin=self.rules.grounding.jamb_margin,
-            clear_distance=self.rules.grounding.clear_distance,
             guide=KnownWays(dict(ways)),
             rules=self.rules,
             progress=self._progress,

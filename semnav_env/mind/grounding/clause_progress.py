@@ -48,8 +48,7 @@ has_places: whether its way is known.
 """
 
 CLAUSE_PROGRESS = np.dtype(
-    [(name, "f8") for name in ("care", "jamb_margin", "clear_distance")]
-    + [(name, "f8") for name in ("standstill_speed", "inspection_angle")]
+    [(name, "f8") for name in ("care", "jamb_margin", "standstill_speed", "inspection_angle")]
     + [(name, "f8") for name in ("still", "farthest_along")]
     + [(name, "f8", 2) for name in ("last", "trail", "farthest")]
     + [("ahead", "f8", 3), ("goal", GOAL_RECORD)]
@@ -59,7 +58,7 @@ CLAUSE_PROGRESS = np.dtype(
 of the follower's scene.
 
 Set when a command is begun:
-    care, jamb_margin, clear_distance: of the `Follower`; the last two in metres.
+    care, jamb_margin: of the `Follower`; the margin in metres.
     standstill_speed, inspection_angle: of the rules, m/s and radians.
 
 Set when a clause is begun or grounded:
@@ -180,8 +179,8 @@ def _is_completed(entry: Any, pose: Pose) -> bool:
     if goal.kind == _PASS:
         before, door = (entry.last[0], entry.last[1]), goal.door
         ends = (door[0], door[1], door[2], door[3])
-        after, margins = (pose[0], pose[1]), (entry.jamb_margin, entry.clear_distance)
-        return is_crossed(before, after, ends, goal.width, there[2], margins)
+        after = (pose[0], pose[1])
+        return is_crossed(before, after, ends, goal.width, there[2], entry.jamb_margin)
     if goal.kind == _REACH:
         tolerances = (goal.tolerances[0], goal.tolerances[1], goal.tolerances[2])
         return is_reached(there, tolerances, pose, entry.care)

@@ -55,9 +55,8 @@ class Follower:
         complete: whether the scenes are complete (true scenes).
         care: share of a goal's tolerances within which it counts as reached; an agent aims well
             inside what the judge accepts.
-        jamb_margin: distance beside a jamb at which a crossing still counts, metres; perceived
-            jambs are not exact.
-        clear_distance: distance behind a door at which it has been passed, metres.
+        jamb_margin: distance beside a jamb at which a crossing still counts, and distance behind
+            the door that the robot must reach, metres; perceived jambs are not exact.
         guide: gives the ways to rooms.
         rules: distances and tolerances.
         progress: progress of the robot in the active clause, dtype `CLAUSE_PROGRESS`, shape (1,);
@@ -73,7 +72,6 @@ class Follower:
     complete: bool = False
     care: float = 1.0
     jamb_margin: float = 0.0
-    clear_distance: float = 0.0
     guide: Guide = field(default_factory=lambda: KnownWays({}), repr=False)
     rules: Rules = field(default=Rules(), repr=False)
     progress: np.ndarray = field(
@@ -98,8 +96,7 @@ class Follower:
         self.active, self._trail = 0, Trail(pose)
         goes_back = any(isinstance(clause, GoBack) for clause in self.command.clauses)
         trail = pose[:2] if goes_back else NO_TRAIL
-        self._write(last=pose[:2], trail=trail, care=self.care)
-        self._write(jamb_margin=self.jamb_margin, clear_distance=self.clear_distance)
+        self._write(last=pose[:2], trail=trail, care=self.care, jamb_margin=self.jamb_margin)
         self._write(
             standstill_speed=self.rules.success.standstill_speed,
             inspection_angle=self.rules.grounding.inspection_angle,

@@ -123,10 +123,17 @@ class PassGoal(BaseGoal):
     door: Door
     because: str = ""
 
-    def crossed_between(self, before: Pose, after: Pose) -> bool:
-        """Whether the step from one pose of the centre to the next leads forward through it."""
+    def crossed_between(self, before: Pose, after: Pose, margin: float = 0.0) -> bool:
+        """Whether the step from `before` to `after` leads forward through the door.
+
+        Args:
+            before: a pose of the robot's centre.
+            after: the next pose.
+            margin: distance beside the jambs that still counts, and distance behind them that the
+                step must reach, metres; for a door that is not known exactly.
+        """
         ends, heading = (*self.door.start, *self.door.end), self.pose[2]
-        return is_crossed(before[:2], after[:2], ends, self.door.width, heading, (0.0, 0.0))
+        return is_crossed(before[:2], after[:2], ends, self.door.width, heading, margin)
 
 
 @dataclass(frozen=True, slots=True)

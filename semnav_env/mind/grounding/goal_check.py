@@ -44,12 +44,7 @@ def is_reached(
 
 @kernel
 def is_crossed(
-    before: Point,
-    after: Point,
-    door: DoorEnds,
-    width: float,
-    heading: float,
-    margins: tuple[float, float],
+    before: Point, after: Point, door: DoorEnds, width: float, heading: float, margin: float
 ) -> bool:
     """Whether the step from one position to the next leads forward through a door.
 
@@ -59,26 +54,25 @@ def is_crossed(
         door: the jambs of the door.
         width: width of the door, metres.
         heading: heading through the door, radians.
-        margins: distance beside the jambs that still counts, and distance behind them that the
-            step must reach, metres.
+        margin: distance beside the jambs that still counts, and distance behind them that the step
+            must reach, metres.
     """
     ax, ay, bx, by = door
-    beside, behind = margins
     dx, dy = after[0] - before[0], after[1] - before[1]
-    reach = abs(bx - ax) + abs(by - ay) + abs(dx) + abs(dy) + 2.0 * max(beside, behind)
+    reach = abs(bx - ax) + abs(by - ay) + abs(dx) + abs(dy) + 2.0 * margin
     if abs(after[0] - ax) > reach or abs(after[1] - ay) > reach:
         return False  # too far away, as nearly always
     c, s = math.cos(heading), math.sin(heading)
     forward = dx * c + dy * s > 0
     share = crossing_share(
-        ax + behind * c,
-        ay + behind * s,
-        bx + behind * c,
-        by + behind * s,
+        ax + margin * c,
+        ay + margin * s,
+        bx + margin * c,
+        by + margin * s,
         before[0],
         before[1],
         after[0],
         after[1],
     )
-    slack = beside / width
+    slack = margin / width
     return forward and -slack <= share <= 1 + slack

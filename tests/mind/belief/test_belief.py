@@ -25,7 +25,6 @@ from tests.support.paths import ROOT
 from tests.support.robots_side import Recorded, described
 
 COMMAND = "turn left at the intersection and go in the first door on the right"
-START = (-2.5, -0.3, 0.24)
 
 
 def recorded(options: dict[str, object], seed: int = 3) -> tuple[Recorded, list[str]]:
@@ -48,7 +47,7 @@ def recorded(options: dict[str, object], seed: int = 3) -> tuple[Recorded, list[
 
 @pytest.fixture(scope="module")
 def drive() -> tuple[Recorded, list[str]]:
-    return recorded({"command": COMMAND, "pose": START})
+    return recorded({"command": COMMAND, "pose": (-2.5, -0.3, 0.24)})
 
 
 def test_records_of_an_episode_give_the_same_beliefs(drive) -> None:
@@ -179,9 +178,8 @@ def test_a_log_is_followed_as_the_robot_itself_would(drive) -> None:
     assert [described(belief) for _, belief in followed] == believed
 
 
-def test_semnav_follow_says_when_its_mind_changed(tmp_path: Path, capsys) -> None:
-    """In a log that goes on for a little after the command is done."""
-    record, _ = recorded({"command": f"{COMMAND}, then turn around", "pose": START})
+def test_semnav_follow_says_when_its_mind_changed(drive, tmp_path: Path, capsys) -> None:
+    record, _ = drive
     spec, path = BeliefTracker().lidar, tmp_path / "log.npz"
     np.savez(
         path,
@@ -193,13 +191,13 @@ def test_semnav_follow_says_when_its_mind_changed(tmp_path: Path, capsys) -> Non
         range_max=spec.range_max,
     )
     picture = tmp_path / "beliefs.png"
-    arguments = ["follow", str(path), COMMAND, "--json", "--plot", str(picture)]
+    arguments = ["follow", str(path), record.command, "--json", "--plot", str(picture)]
     assert main(arguments) == 0
     lines = [json.loads(line) for line in capsys.readouterr().out.splitlines()]
     assert [line["clause"] for line in lines] == sorted(line["clause"] for line in lines)
     assert lines[-1]["clause"] == 3
     assert picture.stat().st_size > 10_000
-    assert main(["follow", str(path), COMMAND, "--limit", "10"]) == 1
+    assert main(["follow", str(path), record.command, "--limit", "10"]) == 1
     assert "0 of 2 clauses" in capsys.readouterr().out
     assert main(["follow", str(path), record.command]) == 0
     said = capsys.readouterr().out

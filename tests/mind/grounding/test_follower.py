@@ -23,8 +23,8 @@ QUARTER = math.pi / 2
 SCENE = corridor(left=(3.0, 6.0), right=(4.0,))
 
 
-def following(text: str, scene: Scene = SCENE, **given: float) -> Follower:
-    follower = Follower(parse(text), complete=True, **given)
+def following(text: str, scene: Scene = SCENE, care: float = 1.0, margin: float = 0.0) -> Follower:
+    follower = Follower(parse(text), complete=True, care=care, jamb_margin=margin)
     follower.start(scene, START)
     return follower
 
@@ -59,12 +59,10 @@ def test_nothing_else_is_that_door(before: Pose, after: Pose) -> None:
 
 def test_an_inexact_door_is_crossed_only_well_behind_its_line() -> None:
     """A little beside the jambs counts, too."""
-    follower = following(
-        "go through the first door on the left", jamb_margin=0.3, clear_distance=0.5
-    )
+    follower = following("go through the first door on the left", margin=0.3)
     beside = 3.0 - 0.45 - 0.2
-    assert drive(follower, (beside, 0.9, QUARTER), (beside, 1.4, QUARTER)) == [False, False]
-    assert drive(follower, (beside, 1.6, QUARTER)) == [True]
+    assert drive(follower, (beside, 0.9, QUARTER), (beside, 1.2, QUARTER)) == [False, False]
+    assert drive(follower, (beside, 1.4, QUARTER)) == [True]
 
 
 def test_clauses_follow_one_another() -> None:
