@@ -378,7 +378,7 @@ ITEMS = (
     ThesisItem(
         MES,
         "chapter 1",
-        "houses are searched, before the plan corrected the pose: victims found, rooms covered",
+        "houses are searched: victims found, rooms covered",
         "no figure",
         "{}; {}; by a wheelchair {}; {}",
         "python -m studies search --agents searcher",

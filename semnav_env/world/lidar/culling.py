@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 from collections import OrderedDict
 from dataclasses import dataclass
+from queue import SimpleQueue
 from typing import Any, TypeAlias
-from weakref import WeakValueDictionary
+from weakref import WeakValueDictionary, finalize
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,10 +93,19 @@ class Recent:
 
     def __init__(self) -> None:
         self._kept: OrderedDict[int, Culling] = OrderedDict()
+        self._gone: SimpleQueue[int] = SimpleQueue()
         self.bytes = 0
+
+    def drop_with(self, floor_plan: FloorPlan, culling: Culling) -> None:
+        """Keep lists no longer than somebody has the floor plan of which they are."""
+        # Only into a queue, because the garbage collector may call this at any moment.
+        finalize(floor_plan, self._gone.put, id(culling)).atexit = False
 
     def keep(self, culling: Culling) -> None:
         """Note that lists were asked for."""
+        while not self._gone.empty():
+            if (dropped := self._kept.pop(self._gone.get(), None)) is not None:
+                self.bytes -= dropped.size
         if self._kept.pop(id(culling), None) is None:
             self.bytes += culling.size
         self._kept[id(culling)] = culling
@@ -120,6 +130,7 @@ def shared_culling(floor_plan: FloorPlan, range_max: float, glass: bool) -> Cull
     if culling is None:
         segments = floor_plan.segments if glass else floor_plan.opaque_segments
         known[glass, range_max] = culling = Culling.of(segments, range_max)
+        RECENT.drop_with(floor_plan, culling)
     RECENT.keep(culling)
     return culling
 

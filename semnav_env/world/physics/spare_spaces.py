@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from queue import SimpleQueue
 from threading import Lock
-from weakref import finalize
+from weakref import finalize, ref
 
 import pymunk
 
@@ -19,11 +19,11 @@ MOST_SPARE = 128
 
 
 class SpareSpaces:
-    """Spaces with the floor plans whose walls they hold; those given back last are kept."""
+    """Spaces of floor plans that somebody still has; those given back last are kept."""
 
     def __init__(self) -> None:
-        self._kept: list[tuple[FloorPlan, pymunk.Space]] = []
-        self._given: SimpleQueue[tuple[FloorPlan, pymunk.Space]] = SimpleQueue()
+        self._kept: list[tuple[ref[FloorPlan], pymunk.Space]] = []
+        self._given: SimpleQueue[tuple[ref[FloorPlan], pymunk.Space]] = SimpleQueue()
         self._lock = Lock()
 
     def take(self, floor_plan: FloorPlan) -> pymunk.Space | None:
@@ -31,9 +31,9 @@ class SpareSpaces:
         with self._lock:
             while not self._given.empty():
                 self._kept.append(self._given.get())
-            del self._kept[:-MOST_SPARE]
+            self._kept = [entry for entry in self._kept if entry[0]() is not None][-MOST_SPARE:]
             for number, (plan, space) in enumerate(self._kept):
-                if plan is floor_plan:
+                if plan() is floor_plan:
                     del self._kept[number]
                     return space
         return None
@@ -43,7 +43,7 @@ class SpareSpaces:
 
         It only goes into a queue, because the garbage collector may call this at any moment.
         """
-        self._given.put((floor_plan, space))
+        self._given.put((ref(floor_plan), space))
 
     def give_when_gone(self, user: object, floor_plan: FloorPlan, space: pymunk.Space) -> None:
         """Keep a space as soon as an object that uses it is gone."""

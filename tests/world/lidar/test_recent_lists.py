@@ -6,6 +6,7 @@ from weakref import ref
 import numpy as np
 
 from semnav_env.world.lidar.culling import MAX_KEPT_BYTES, Culling, Recent
+from tests.support.small_plans import empty_hall
 
 
 def lists_of(size: int) -> Culling:
@@ -26,6 +27,19 @@ def test_lists_are_kept_up_to_a_bound_those_asked_for_last() -> None:
     assert second() is None
     assert last() is not None
     assert recent.bytes <= MAX_KEPT_BYTES
+
+
+def test_lists_go_with_their_floor_plan() -> None:
+    recent, plan, lists = Recent(), empty_hall(), lists_of(1_000)
+    recent.drop_with(plan, lists)
+    recent.keep(lists)
+    kept = ref(lists)
+    del plan, lists
+    gc.collect()
+    other = lists_of(320)
+    recent.keep(other)
+    assert kept() is None
+    assert recent.bytes == other.size
 
 
 def test_lists_that_are_too_large_to_keep_replace_all_others() -> None:

@@ -1,6 +1,7 @@
 """A world in a space that was used before drives as one in a new space, to the last bit."""
 
 import gc
+from weakref import ref
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from semnav_env.robots import SPOT, WHEELCHAIR, RobotSpec
 from semnav_env.world.maps import load_floor_plan
 from semnav_env.world.physics import World, spare_spaces
 from semnav_env.world.physics.spare_spaces import MOST_SPARE, SpareSpaces
+from tests.support.small_plans import empty_hall
 
 PLAN = load_floor_plan("heidelberg_hallway")
 START = (0.0, 0.0, 0.3)
@@ -56,6 +58,16 @@ def test_a_space_is_taken_once_and_only_for_its_own_plan(spare: SpareSpaces) -> 
     assert spare.take(load_floor_plan("office_cross")) is None
     assert spare.take(PLAN) is not None
     assert spare.take(PLAN) is None
+
+
+def test_a_space_goes_with_its_floor_plan(spare: SpareSpaces) -> None:
+    plan, space = empty_hall(), set()
+    spare.give(plan, space)
+    kept = ref(space)
+    del plan, space
+    gc.collect()
+    assert spare.take(PLAN) is None
+    assert kept() is None
 
 
 def test_no_more_spaces_are_kept_than_a_split_needs(spare: SpareSpaces) -> None:
