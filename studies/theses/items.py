@@ -424,8 +424,8 @@ ITEMS = (
             f"doors, turns, rooms and exits of her hall, {robot}: success / without contact",
             "no figure",
             "{}",
-            f"semnav evaluate villa --robot {robot.lower()} --seeds 5",
-            (Figure("guides/evaluation.md", (f"scripted, {robot}", "200 episodes"), "all four"),),
+            f"semnav evaluate villa --robot {robot.lower()} --seeds 10",
+            (Figure("guides/evaluation.md", (f"scripted, {robot}", "400 episodes"), "all four"),),
         )
         for robot in ("wheelchair", "SPOT")
     ],
