@@ -74,7 +74,7 @@ class Arguments:
                 told = topics, navigator.take, self.action
                 server = open_navigator_server(self.navigator, wire, *told)
             shell = RobotShell(robot, wire, topics, self.speed, self.lockstep, navigator, server)
-            print("publishing; tell a command on semnav/command", flush=True)
+            print(self._waits_for(), flush=True)
             end = time.monotonic() + self.seconds
             outcome = shell.run(lambda: time.monotonic() < end, self.command)
         finally:
@@ -88,3 +88,9 @@ class Arguments:
             kept |= {"delay_ms": dict(zip(("median", "99 of 100"), shares.round(1), strict=True))}
         print(json.dumps(kept, default=str), flush=True)
         return 0 if outcome["is_success"] else 1
+
+    def _waits_for(self) -> str:
+        """What the robot waits for, in words."""
+        if self.command is None:
+            return "publishing; tell a command on semnav/command"
+        return f"publishing; the command waits for a node: semnav node --over {self.over}"
