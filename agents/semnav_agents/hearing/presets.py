@@ -9,8 +9,8 @@ from semnav_agents.hearing.network import NetworkShape
 from semnav_features.checked_fields import Bounds, Count, OneOf, Share, check_fields
 
 SampleDriver: TypeAlias = Annotated[str, OneOf(("scripted", "planner", "policy"))]
-"""Who drives while samples are collected. The scripted agent drives to the environment's goals; the
-planner and the bundled policy `drive` drive to the goals of the learner."""
+"""The driver of the episodes from which a network learns to hear: "scripted" drives to the goals of
+the environment; "planner" and "policy", which is the bundled `drive`, to those of the learner."""
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import math
 from collections import OrderedDict
 from dataclasses import dataclass
 from queue import SimpleQueue
+from threading import Lock
 from typing import Any, TypeAlias
 from weakref import WeakValueDictionary, finalize
 
@@ -89,11 +90,12 @@ are among the `Recent`."""
 
 
 class Recent:
-    """Keeps what was made last, whoever uses it: at most `MAX_KEPT_BYTES` in all."""
+    """Keeps what was made last, for all threads of a process: at most `MAX_KEPT_BYTES` in all."""
 
     def __init__(self) -> None:
         self._kept: OrderedDict[int, Culling] = OrderedDict()
         self._gone: SimpleQueue[int] = SimpleQueue()
+        self._lock = Lock()
         self.bytes = 0
 
     def drop_with(self, floor_plan: FloorPlan, culling: Culling) -> None:
@@ -103,14 +105,18 @@ class Recent:
 
     def keep(self, culling: Culling) -> None:
         """Note that lists were asked for."""
-        while not self._gone.empty():
-            if (dropped := self._kept.pop(self._gone.get(), None)) is not None:
-                self.bytes -= dropped.size
-        if self._kept.pop(id(culling), None) is None:
+        with self._lock:
+            while not self._gone.empty():
+                self._drop(self._gone.get())
+            self._drop(id(culling))
+            self._kept[id(culling)] = culling
             self.bytes += culling.size
-        self._kept[id(culling)] = culling
-        while self.bytes > MAX_KEPT_BYTES and len(self._kept) > 1:
-            self.bytes -= self._kept.popitem(last=False)[1].size
+            while self.bytes > MAX_KEPT_BYTES and len(self._kept) > 1:
+                self._drop(next(iter(self._kept)))
+
+    def _drop(self, number: int) -> None:
+        if (dropped := self._kept.pop(number, None)) is not None:
+            self.bytes -= dropped.size
 
 
 RECENT = Recent()

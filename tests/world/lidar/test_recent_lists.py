@@ -1,6 +1,7 @@
 """The lists of near segments that nobody uses take bounded memory."""
 
 import gc
+from concurrent.futures import ThreadPoolExecutor
 from weakref import ref
 
 import numpy as np
@@ -50,3 +51,18 @@ def test_lists_that_are_too_large_to_keep_replace_all_others() -> None:
     assert recent.bytes == huge.size
     recent.keep(lists_of(1_000))
     assert recent.bytes < MAX_KEPT_BYTES
+
+
+def test_threads_that_keep_and_drop_lists_at_once_all_come_to_their_end() -> None:
+    recent = Recent()
+
+    def keep_and_let_go(_: int) -> None:
+        for _ in range(200):
+            plan, lists = empty_hall(), lists_of(320)
+            recent.drop_with(plan, lists)
+            recent.keep(lists)
+
+    with ThreadPoolExecutor(8) as threads:
+        list(threads.map(keep_and_let_go, range(8)))
+    recent.keep(last := lists_of(320))
+    assert recent.bytes == last.size
