@@ -21,7 +21,8 @@ from semnav_features.kernels.compiling import kernel
 CLAUSE_DONE, TRAIL_DUE, ON_WAY, NO_NEARER = 1, 2, 4, 32
 """Events, as bits: the current clause is completed; the robot is `WAY_SPACING` from the last
 place of its trail; the goal lies on a known way, so that what to head for changes as one drives;
-the robot stands still beside a lookout point, to which it can come no nearer."""
+the robot stands still beside a lookout point, to which it can come no nearer. The bits 8 and 16 are
+those of `mind.belief.understand`, which adds its events to these."""
 
 STANDS_BESIDE, STANDS_FOR = 1.0, 3.0
 """Largest distance from a lookout point, metres, at which a robot that stands still for so many
