@@ -76,20 +76,24 @@ class EpisodesBuildings:
 
     Attributes:
         kth: folders with floors of the KTH data set, BUILDING/FLOOR.xml.
+        osm: buildings of OpenStreetMap with indoor tags, BUILDING.osm.
         out: folder for the floor plans, the episodes of each split, and real_drawn.json, which says
             how many commands were kept and dropped in each building.
         seed: of the episodes.
     """
 
-    kth: tuple[Path, ...]
+    kth: tuple[Path, ...] = ()
+    osm: tuple[Path, ...] = ()
     out: Path = Path("real_buildings")
     seed: int = SEED
 
     def run(self) -> int:
         """Write the floor plans, one file of episodes for each split, and the numbers."""
-        if self.seed < 0 or not self.kth:
-            raise ValueError("give at least one folder after --kth, and --seed at least 0")
-        floors = benchmark_floors(self.kth)
+        if self.seed < 0 or not (self.kth or self.osm):
+            raise ValueError("give a folder after --kth or a file after --osm; --seed at least 0")
+        if strange := [path for path in self.osm if path.suffix != ".osm"]:
+            raise ValueError(f"{strange[0]}: no .osm file, as --osm needs")
+        floors = benchmark_floors((*self.kth, *self.osm))
         of_split = {split: SplitTally() for split in SPLIT_NAMES}
         left_out: list[str] = []
         buildings = len({floor.building for floor, _ in floors})

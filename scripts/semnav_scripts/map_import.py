@@ -27,15 +27,16 @@ class Arguments:
 
     It reads maps of ROS's map_server (.yaml, with doors.yaml and locations.yaml beside it if they
     exist; or the image alone), drawings (.dxf, .svg), floor plans of the KTH and MIT campus data
-    sets (.xml), vector maps and houses of HouseExpo (.json), lists of wall segments (.csv), and
-    floor plans in another unit than metres (.geojson).
+    sets (.xml), buildings of OpenStreetMap (.osm), vector maps and houses of HouseExpo (.json),
+    lists of wall segments (.csv), and floor plans in another unit than metres (.geojson).
 
     Attributes:
         source: the map.
         out: the floor plan to write (.geojson).
         resolution: of an image without .yaml file, metres per pixel.
         tracing: how the pixels of an occupancy map become walls.
-        drawing: scale and layers of a drawing; the scale also of other lists of coordinates.
+        drawing: scale and layers of a drawing; the scale also of other lists of coordinates; the
+            level of a building of OpenStreetMap.
         picture: picture of the plan to write, with its faults (.png, .pdf or .svg);
             NAME_plan.png beside NAME.geojson if not given.
         robot: wheelchair or spot; faults are searched for its body.

@@ -18,7 +18,6 @@ from numpy.random import Generator
 
 from semnav_env.judge.episodes.buildings import TUNE, floors_in, listed_floors
 from semnav_env.world.maps.floor_plan import FloorPlan, Surface
-from semnav_env.world.maps.importers.kth import load_kth
 from semnav_features.frames import Pose, to_local
 from semnav_features.scene import Door
 from studies.door_scorer.random_furniture import DOORWAY_CLEARANCE, TrainingFurniture
@@ -83,11 +82,11 @@ def drawn_floors(folder: Path) -> list[FloorPlan]:
         FloorPlanError: the folder holds no floors.
         ValueError: a floor of that half is missing.
     """
-    paths = {floor.name: floor.path for floor in floors_in([folder])}
+    floors = {floor.name: floor for floor in floors_in([folder])}
     listed = listed_floors()[TUNE]
-    if missing := sorted(set(listed) - set(paths)):
+    if missing := sorted(set(listed) - set(floors)):
         raise ValueError(f"{folder} lacks {missing[0]}; give a folder with BUILDING/FLOOR.xml")
-    return [load_kth(paths[name]).plan for name in sorted(listed)]
+    return [floors[name].plan() for name in sorted(listed)]
 
 
 def furnished_floor(plan: FloorPlan, rng: Generator) -> FurnishedFloor:

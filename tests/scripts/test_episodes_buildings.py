@@ -22,6 +22,7 @@ from semnav_env.judge.episodes.buildings import (
 )
 from tests.support.command_line import run
 from tests.support.kth_floors import long_floor, real_floors
+from tests.support.osm_floors import hall_and_rooms
 from tests.support.paths import DATA
 
 
@@ -45,6 +46,25 @@ def test_a_building_that_is_not_listed_makes_a_split_of_its_own(
     counts = numbers["real_drawn_other"]["commands"]["B1"]
     assert sum(counts.values()) - counts["drawn"] == EPISODES_PER_BUILDING
     assert counts["drawn"] >= EPISODES_PER_BUILDING
+
+
+def test_a_building_of_openstreetmap_makes_episodes_on_its_levels(
+    tmp_path: Path, capsys: Any
+) -> None:
+    (tmp_path / "house.osm").write_text(hall_and_rooms([{"door": "hinged"}] * 10))
+    told = "episodes", "buildings", "--osm", tmp_path / "house.osm", "--out", tmp_path / "o"
+    code, out, err = run(capsys, *told)
+    assert code == 0, err
+    assert "15 episodes in 1 floor of 1 building" in out
+    found = load_episodes(tmp_path / "o" / "real_drawn_other.jsonl.gz")
+    assert {Path(each.floor_plan).name for each in found} == {"house-0.geojson"}
+
+
+@pytest.mark.parametrize("told", [(), ("--osm", "plan.xml"), ("--osm", "no.osm")])
+def test_what_is_no_building_is_refused(tmp_path: Path, capsys: Any, told: Any) -> None:
+    code, _, err = run(capsys, "episodes", "buildings", *told, "--out", tmp_path / "o")
+    assert code == 2
+    assert "--osm" in err or "no.osm" in err
 
 
 def test_a_changed_floor_of_the_benchmark_is_left_out_by_name(tmp_path: Path, capsys: Any) -> None:

@@ -1,7 +1,7 @@
 """The real-building benchmark: floors of drawn buildings that the user has, and their splits.
 
-The project holds the names and the fingerprints of the floors, and the seed of their episodes, but
-no plans: their makers state no licence.
+The project holds the names and the fingerprints of KTH's floors, and the seed of their episodes,
+but no plans: their makers state no licence.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ from semnav_env.judge.episodes.splits import SEED, SPLITS
 from semnav_env.judge.episodes.stable_answers import StableAnswers
 from semnav_env.language import Command
 from semnav_env.world.maps.floor_plan import FloorPlan
-from semnav_env.world.maps.importers.kth import load_kth
+from semnav_env.world.maps.importers import Drawing, import_map
+from semnav_env.world.maps.importers.osm import OsmBuilding
 from semnav_env.world.maps.library import load_floor_plan
 from semnav_env.world.maps.rules import FloorPlanError
 from semnav_env.world.maps.writer import save_floor_plan
@@ -61,15 +62,25 @@ class RealFloor:
     Attributes:
         building: name of the building.
         path: file of its plan.
+        level: the floor, in the file of a whole building.
     """
 
     building: str
     path: Path
+    level: str | None = None
 
     @property
     def name(self) -> str:
         """BUILDING/FLOOR."""
-        return f"{self.building}/{self.path.stem}"
+        return f"{self.building}/{self.path.stem if self.level is None else self.level}"
+
+    def plan(self) -> FloorPlan:
+        """Its plan.
+
+        Raises:
+            FloorPlanError: it cannot be read.
+        """
+        return import_map(self.path, drawing=Drawing(level=self.level)).plan
 
     def save(self, folder: Path) -> Site:
         """Import its plan and write it into a folder; the site for its episodes.
@@ -77,8 +88,8 @@ class RealFloor:
         Raises:
             FloorPlanError: it cannot be read.
         """
-        file = folder / f"{self.building}-{self.path.stem}.geojson"
-        save_floor_plan(load_kth(self.path).plan, file)
+        file = folder / f"{self.name.replace('/', '-')}.geojson"
+        save_floor_plan(self.plan(), file)
         return Site(load_floor_plan(file), file.name, whole=True)
 
 
@@ -97,19 +108,29 @@ def split_of(building: str) -> str:
     return OTHER
 
 
-def floors_in(folders: Sequence[Path]) -> tuple[RealFloor, ...]:
-    """The floors in folders with one folder for each building, BUILDING/FLOOR.xml, sorted.
+def floors_in(places: Sequence[Path]) -> tuple[RealFloor, ...]:
+    """The floors in folders with BUILDING/FLOOR.xml, and in files BUILDING.osm, sorted.
 
     Raises:
-        FloorPlanError: a folder has none.
+        FloorPlanError: a folder has none, or a file cannot be read.
     """
-    found = []
-    for folder in folders:
-        paths = sorted(folder.rglob("*.xml"), key=lambda path: (path.parent.name, path.name))
-        if not paths:
-            raise FloorPlanError(f"{folder}: holds no BUILDING/FLOOR.xml of the KTH data set")
-        found += [RealFloor(path.parent.name, path) for path in paths]
+    found: list[RealFloor] = []
+    for place in places:
+        found += _levels_of(place) if place.suffix == ".osm" else _floors_of(place)
     return tuple(sorted(found, key=lambda floor: floor.name))
+
+
+def _levels_of(path: Path) -> Iterator[RealFloor]:
+    for level in OsmBuilding(path).levels:
+        yield RealFloor(path.stem, path, level)
+
+
+def _floors_of(folder: Path) -> Iterator[RealFloor]:
+    paths = sorted(folder.rglob("*.xml"), key=lambda path: (path.parent.name, path.name))
+    if not paths:
+        raise FloorPlanError(f"{folder}: holds no BUILDING/FLOOR.xml of the KTH data set")
+    for path in paths:
+        yield RealFloor(path.parent.name, path)
 
 
 def usable_floors(floors: Sequence[RealFloor]) -> Iterator[RealFloor]:
@@ -121,16 +142,16 @@ def usable_floors(floors: Sequence[RealFloor]) -> Iterator[RealFloor]:
         floors: sorted by building.
     """
     for _, of_one in groupby(floors, lambda floor: floor.building):
-        counted = [(corridor_doors(floor.path), floor) for floor in of_one]
+        counted = [(corridor_doors(floor), floor) for floor in of_one]
         enough = [each for each in counted if each[0] >= LEAST_CORRIDOR_DOORS]
         best = sorted(enough, key=lambda each: (-each[0], each[1].name))[:FLOORS_PER_BUILDING]
         yield from sorted([floor for _, floor in best], key=lambda floor: floor.name)
 
 
-def corridor_doors(path: Path) -> int:
+def corridor_doors(floor: RealFloor) -> int:
     """Number of doors at the corridors of a floor that count as doors; 0 if it cannot be read."""
     try:
-        plan = load_kth(path).plan
+        plan = floor.plan()
     except FloorPlanError:
         return 0
     halls = shapely.union_all([hall.polygon for hall in plan.corridors])
@@ -146,15 +167,15 @@ def halves(buildings: Sequence[str]) -> dict[str, str]:
     return {name: (TUNE, TEST)[k % 2] for k, name in enumerate(names)}
 
 
-def benchmark_floors(folders: Sequence[Path]) -> tuple[tuple[RealFloor, str], ...]:
-    """The floors in folders that episodes are made in, each with its split, sorted.
+def benchmark_floors(places: Sequence[Path]) -> tuple[tuple[RealFloor, str], ...]:
+    """The floors in places of `floors_in` that episodes are made in, each with its split, sorted.
 
     Those are the listed floors, and the `usable_floors` of buildings that are not listed.
 
     Raises:
-        FloorPlanError: a folder has none.
+        FloorPlanError: a folder has none, or a file cannot be read.
     """
-    there = [(floor, split_of(floor.building)) for floor in floors_in(folders)]
+    there = [(floor, split_of(floor.building)) for floor in floors_in(places)]
     listed = [(floor, s) for floor, s in there if floor.name in listed_floors().get(s, {})]
     others = usable_floors([floor for floor, split in there if split == OTHER])
     return tuple(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 from typing import Any
+from xml.etree.ElementTree import Element, ParseError, fromstring
 
 import yaml
 
@@ -50,6 +51,25 @@ def read_yaml(path: Path) -> Any:
     except (yaml.YAMLError, RecursionError, ValueError) as error:
         said = str(error).splitlines()[0] if str(error) else type(error).__name__
         raise FloorPlanError(f"{path}: not YAML: {clipped(said)}") from None
+
+
+def read_xml(path: Path, what_it_is: str) -> Element:
+    """Read an XML document of limited size, without a document type: entities can grow endlessly.
+
+    Args:
+        path: the file.
+        what_it_is: what the file should hold, for the error.
+
+    Raises:
+        FloorPlanError: no such file, too large, or no XML.
+    """
+    text = read_text(path)
+    if "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise FloorPlanError(f"{path}: declares a document type, which is not read; {what_it_is}")
+    try:
+        return fromstring(text.encode())
+    except ParseError as error:
+        raise FloorPlanError(f"{path}: no XML ({error}); {what_it_is}") from None
 
 
 def finite(value: Any) -> float:

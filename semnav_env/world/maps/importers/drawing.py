@@ -38,13 +38,14 @@ LEAF_WIDTHS = (0.5, 2.2)
 
 @dataclass(frozen=True)
 class Drawing:
-    """Options for reading a line drawing (DXF, SVG).
+    """Options for reading a line drawing (DXF, SVG); the level is for a building (OSM).
 
     Attributes:
         scale: metres a unit, if the file does not say (0.01 for centimetres).
         walls: layers with walls; all but those of doors if none are named.
         doors: layers with doors: arcs that leaves swing along, or on layers without an arc lines
             from jamb to jamb.
+        level: of an OpenStreetMap building, such as "0"; not needed if it has one only.
 
     Raises:
         ValueError: a scale out of range, or layers that are no texts; names it.
@@ -53,6 +54,7 @@ class Drawing:
     scale: Annotated[float | None, Bounds(1e-6, 1e3, "metres a unit")] = None
     walls: tuple[str, ...] = ()
     doors: tuple[str, ...] = ()
+    level: str | None = None
 
     def __post_init__(self) -> None:
         check_fields(self)

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from statistics import median
-from xml.etree.ElementTree import Element, ParseError, fromstring
+from xml.etree.ElementTree import Element
 
-from semnav_env.world.maps.importers.documents import finite, read_text
+from semnav_env.world.maps.importers.documents import finite, read_xml
 from semnav_env.world.maps.importers.door_faces import LEAST_DOOR_WIDTH
 from semnav_env.world.maps.importers.drawing import MAX_DRAWING_EXTENT, MAX_SEGMENTS
 from semnav_env.world.maps.importers.imported import ImportedPlan
@@ -62,7 +62,7 @@ def load_kth(path: Path, scale: float | None = None) -> ImportedPlan:
     Raises:
         FloorPlanError: not such a file; names what is wrong.
     """
-    root = _root(path)
+    root = read_xml(path, WHAT_IT_IS)
     spaces = [space for each in root.iter("space") if (space := _space(each, path)).lines]
     if sum(len(space.lines) for space in spaces) > MAX_SEGMENTS:
         raise FloorPlanError(f"{path}: more than {MAX_SEGMENTS:,} segments; no floor has as many")
@@ -80,16 +80,6 @@ def load_kth(path: Path, scale: float | None = None) -> ImportedPlan:
     return ImportedPlan(
         plan, replace(report, notes=(f"{unit:.6g} m a unit", *notes, *report.notes))
     )
-
-
-def _root(path: Path) -> Element:
-    text = read_text(path)
-    if "<!DOCTYPE" in text or "<!ENTITY" in text:
-        raise FloorPlanError(f"{path}: declares a document type, which is not read; {WHAT_IT_IS}")
-    try:
-        return fromstring(text.encode())
-    except ParseError as error:
-        raise FloorPlanError(f"{path}: no XML ({error}); {WHAT_IT_IS}") from None
 
 
 def _space(element: Element, path: Path) -> DrawnSpace:

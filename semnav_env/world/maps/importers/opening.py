@@ -16,6 +16,7 @@ from semnav_env.world.maps.importers.house_expo import is_house, plan_of_house
 from semnav_env.world.maps.importers.imported import ImportedPlan
 from semnav_env.world.maps.importers.kth import load_kth
 from semnav_env.world.maps.importers.occupancy import IMAGE_SUFFIXES, read_occupancy
+from semnav_env.world.maps.importers.osm import load_osm
 from semnav_env.world.maps.importers.plan_file import load_plan_file
 from semnav_env.world.maps.importers.segments import load_csv, load_vector_map
 from semnav_env.world.maps.importers.svg import load_svg
@@ -30,12 +31,25 @@ IMPORTED_FORMATS = (
     "a list of segments (.csv)",
     "a drawing (.dxf, .svg)",
     "a floor plan of a campus data set of KTH or MIT (.xml)",
+    "a building of OpenStreetMap with indoor tags (.osm)",
     "a floor plan of this project in another unit (.geojson)",
 )
 """Formats that can be imported, as an error lists them."""
 
 KNOWN_SUFFIXES = frozenset(
-    (".yaml", ".yml", ".dxf", ".svg", ".xml", ".json", ".csv", ".txt", ".geojson", *IMAGE_SUFFIXES)
+    (
+        ".yaml",
+        ".yml",
+        ".dxf",
+        ".svg",
+        ".xml",
+        ".osm",
+        ".json",
+        ".csv",
+        ".txt",
+        ".geojson",
+        *IMAGE_SUFFIXES,
+    )
 )
 """Suffixes of the files that the package itself reads; they cannot be registered."""
 
@@ -76,11 +90,12 @@ def import_map(
     Args:
         path: .yaml or .yml of ROS's map_server, with the labels beside it if there are any; its
             image alone; .json with the segments of a vector map or a house of HouseExpo; .csv or
-            .txt with segments; .dxf or .svg; .xml of KTH or MIT; .geojson; or a kind of
+            .txt with segments; .dxf or .svg; .xml of KTH or MIT; .osm; .geojson; or a kind of
             `register_importer`.
         resolution: metres per pixel of an image alone.
         tracing: options for tracing walls from the pixels of an occupancy map.
-        drawing: scale and layers of a drawing; of other coordinates only the scale is used.
+        drawing: scale and layers of a drawing, level of a building of OpenStreetMap; of other
+            coordinates only the scale is used.
 
     Returns:
         The plan, and a report of what was imported.
@@ -141,6 +156,8 @@ def _imported(
         return load_csv(where, scale)
     if suffix == ".xml":
         return load_kth(where, scale)
+    if suffix == ".osm":
+        return load_osm(where, drawing.level if drawing else None)
     if suffix == ".geojson":
         return load_plan_file(where, scale)
     raise FloorPlanError(f"{where}: no map of a known kind; give {', '.join(IMPORTED_FORMATS)}")
