@@ -29,6 +29,10 @@ def load(name: str) -> Language:
         same_as=same_as,
         phrases=table["phrases"],
         answers={key: tuple(words) for key, words in table["answers"].items()},
+        founding={
+            key: tuple(_plain(each, same_as) for each in words)
+            for key, words in table["founding"].items()
+        },
         wordings={key: tuple(words) for key, words in table["wordings"].items()},
     )
 

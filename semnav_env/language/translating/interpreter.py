@@ -8,17 +8,24 @@ from pathlib import Path
 
 from semnav_env.language.canonical import read_canonical
 from semnav_env.language.clauses import Stop
-from semnav_env.language.command import Command
+from semnav_env.language.command import Command, room_of
+from semnav_env.language.errors import CommandError
 from semnav_env.language.interpreters import Interpretation
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
 from semnav_env.language.named_rooms import check_rooms
 from semnav_env.language.question import AmbiguousCommandError, Ask, Question, ask_until_clear
+from semnav_env.language.rooms import plain_name
 from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
 from semnav_env.language.translating.defaults import with_defaults
 from semnav_env.language.translating.network import TRAINED_FOLDER, load_translator
 from semnav_env.language.translating.refusal import Refusal, refused_language
-from semnav_env.language.translating.translator import TranslatedText, translate
+from semnav_env.language.translating.translator import (
+    TranslatedText,
+    Translation,
+    translate,
+)
+from semnav_env.language.translating.unknown_words import rests_on_known_words
 from semnav_env.language.vocabulary.recognition import language_of_text
 
 
@@ -77,19 +84,36 @@ class LearnedInterpreter:
             raise error
         found = translate(text, self.rooms, load_translator(self.folder))
         likeliest = found.translations[0] if found and found.translations else None
-        if found and likeliest and likeliest.likeness >= self.limits.acting:
+        if found and likeliest and self._is_sure(likeliest, found):
             command = with_defaults(likeliest.command, found.support)
             return Interpretation(text, command, spoken, "translator", likeliest.likeness)
         if begins_or_ends_with_stop(text):
             return self._stop(text)
-        if found and (question := self._question(text, spoken, found)):
-            raise question
-        raise Refusal(text, spoken, self.rooms, found).error
+        refusal = Refusal(text, spoken, self.rooms, found)
+        question = self._which_room(refusal) or (found and self._question(text, spoken, found))
+        raise question or refusal.error
 
     def _stop(self, text: str) -> Interpretation:
         """A stop, in whatever text; its language does not matter."""
         spoken = language_of(self.language or "en")
         return Interpretation(text, Command((Stop(),)), spoken, "stop")
+
+    def _is_sure(self, likeliest: Translation, found: TranslatedText) -> bool:
+        is_likely = likeliest.likeness >= self.limits.acting
+        return is_likely and rests_on_known_words(likeliest.command, found, self.rooms)
+
+    def _which_room(self, refusal: Refusal) -> AmbiguousCommandError | None:
+        """The question whether an unknown word is the room whose name it is near."""
+        for text in refusal.with_a_room():
+            try:
+                command = self._read(text)
+            except CommandError:
+                continue
+            for name in filter(None, map(room_of, command.clauses)):
+                meant = next(each for each in self.rooms if plain_name(each) == name)
+                question = Question((command,), refusal.spoken, self._read, meant)
+                return AmbiguousCommandError(refusal.text, question)
+        return None
 
     def _question(
         self, text: str, spoken: Language, found: TranslatedText

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,6 +13,7 @@ from semnav_env.language.languages import languages
 from semnav_env.language.normalise import normalise
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.translating.translator import TranslatedText
+from semnav_env.language.translating.unknown_words import near_room
 from semnav_env.language.translating.word_classes import UNKNOWN, classes_of
 from semnav_env.language.vocabulary.lexicon import lexicon_of
 from semnav_env.language.vocabulary.recognition import votes
@@ -74,6 +75,14 @@ class Refusal:
             for piece, known in zip(said, classes, strict=True)
             if any(map(str.isalnum, piece.text)) and plain_name(piece.text) not in named
         ]
+
+    def with_a_room(self) -> Iterator[str]:
+        """The text with an unknown word replaced by that of a room's name, for each such word."""
+        for piece, known in self._words:
+            near = near_room(piece.text, self.rooms) if known == {UNKNOWN} else None
+            if near:
+                start, length = normalise(self.text, self.spoken).span(piece.start, piece.stop)
+                yield self.text[:start] + near + self.text[start + length :]
 
     def _about(self, piece: TextPiece, phrase: str) -> CommandError:
         """The error that points at a word, and says it as it was written."""
