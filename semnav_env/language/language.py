@@ -27,8 +27,8 @@ class Language:
         phrases: format strings that put commands in words; "door:to" is a form of "door".
         answers: what people answer to a question: words for yes and no, for the first and the
             second of two choices, for sides and approaches, and words that may stand beside.
-        founding: words of which a text must have one before the robot goes to a person, or searches
-            the whole house, in the spelling in which they are read.
+        founding: words for a person and for the whole house, of which a text must have one before
+            the robot goes to people or searches everywhere; and those for calling and asking.
         wordings: other format strings for these phrases; those of "1" are other words for the
             first, and those of "command" frame a whole command.
     """

@@ -56,6 +56,13 @@ def languages() -> dict[str, Language]:
     return {language.code: language for language in loaded}
 
 
+@cache
+def founding_words() -> frozenset[str]:
+    """The words of all languages for people, for the whole house, and for calling and asking."""
+    rows = (row for language in languages().values() for row in language.founding.values())
+    return frozenset(phrase for row in rows for phrase in row)
+
+
 def language_of(language: str | Language) -> Language:
     """The language with a code or a name, such as "de" or "german".
 

@@ -107,3 +107,18 @@ def test_no_to_a_room_is_no_command() -> None:
 def test_a_word_of_the_name_of_a_room_is_no_slip() -> None:
     with pytest.raises(CommandError):
         parse("throw the boots away", rooms=("Boots room", "Office"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "see if somebody is in here, leave the room and go left",
+        "go through every room, and when you have found somebody go to them and ask their name",
+        "geh in die Küche, schau dich um und ruf, ob jemand antwortet",
+    ],
+)
+def test_no_refusal_blames_a_word_for_people_or_for_calling(text: str) -> None:
+    with pytest.raises(CommandError) as refused:
+        parse(text, rooms=("Küche",))
+    for word in ("somebody", "every", "ask", "ruf", "jemand"):
+        assert f'"{word}"' not in refused.value.problem

@@ -9,7 +9,7 @@ from functools import cached_property
 
 from semnav_env.language.errors import CommandError, listed
 from semnav_env.language.language import Language
-from semnav_env.language.languages import languages
+from semnav_env.language.languages import founding_words, languages
 from semnav_env.language.normalise import normalise
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.translating.translator import TranslatedText
@@ -65,11 +65,12 @@ class Refusal:
 
     @cached_property
     def _words(self) -> list[tuple[TextPiece, set[str]]]:
-        """The words that name no room of the building, each with its classes."""
+        """The words that name no room of the building, no person and the like, with their classes."""
         said = pieces(normalise(self.text, self.spoken).text)
         found = classes_of([piece.text for piece in said], lexicon_of(self.spoken))
         classes = ({name.partition(",")[0] for name in names} for names in found)
         named = {word for room in self.rooms for word in re.split("[^a-z0-9]", plain_name(room))}
+        named |= founding_words()
         return [
             (piece, known)
             for piece, known in zip(said, classes, strict=True)

@@ -8,7 +8,7 @@ from rapidfuzz.distance import OSA
 
 from semnav_env.language.command import Command
 from semnav_env.language.finding_clauses import AskName, GoToPerson, SearchHouse
-from semnav_env.language.languages import languages
+from semnav_env.language.languages import founding_words, languages
 from semnav_env.language.translating.spoken_values import MIN_MISSPELT
 from semnav_env.language.translating.translator import TranslatedText
 from semnav_env.language.translating.word_classes import UNKNOWN
@@ -49,9 +49,8 @@ def rests_on_known_words(command: Command, found: TranslatedText, rooms: Sequenc
 def _unknown_places(found: TranslatedText) -> Iterator[tuple[str, set[str]]]:
     """The unknown words where places are named, with the classes of the words before them."""
     classes = [{name.partition(",")[0] for name in names} for names in found.plain.classes]
-    founding = {w for each in languages().values() for row in each.founding.values() for w in row}
     for at, word in enumerate(found.plain.words):
-        if at and classes[at] == {UNKNOWN} and word.isalpha() and word not in founding:
+        if at and classes[at] == {UNKNOWN} and word.isalpha() and word not in founding_words():
             is_article = at > 1 and not classes[at - 1].isdisjoint(("det", "a"))
             before = classes[at - 1] | (classes[at - 2] if is_article else set())
             if before & NAMING:

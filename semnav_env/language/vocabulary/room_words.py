@@ -34,29 +34,40 @@ def _name_phrases(names: tuple[str, ...]) -> Mapping[tuple[str, ...], str]:
 
 
 def _in_other_words(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """A name with one of its words in other words or in the other language: "labor" for "lab".
+    """A name with its kind in other words or in the other language: "labor" for "lab".
 
     Of whose bedroom it is one also says that it is that person's room.
     """
     if len(words) > 1 and words[-1] == "bedroom":
         yield *words[:-1], "room"
-    for at, word in enumerate(words):
+    for at in range(len(words)):
         for kind in _KINDS:
-            if word in kind:
-                yield from ((*words[:at], other, *words[at + 1 :]) for other in kind)
+            for said in filter(lambda said: words[at : at + len(said)] == said, kind):
+                yield from ((*words[:at], *other, *words[at + len(said) :]) for other in kind)
 
 
-_KINDS = (
-    ("office", "buero"),
-    ("lab", "laboratory", "labor"),
-    ("kitchen", "kueche"),
-    ("bathroom", "bad", "badezimmer"),
-    ("bedroom", "schlafzimmer"),
-    ("library", "bibliothek"),
-    ("workshop", "werkstatt"),
-    ("toilet", "toilette", "wc"),
+_KINDS = tuple(
+    tuple(tuple(name.split()) for name in row.split("|"))
+    for row in (
+        "office|buero",
+        "lab|laboratory|labor",
+        "kitchen|kueche",
+        "bathroom|bad|badezimmer",
+        "bedroom|schlafzimmer",
+        "living room|wohnzimmer",
+        "dining room|esszimmer",
+        "waiting room|wartezimmer",
+        "meeting room|besprechungsraum|besprechungszimmer",
+        "conference room|konferenzraum",
+        "storage room|lagerraum",
+        "classroom|klassenzimmer",
+        "library|bibliothek",
+        "workshop|werkstatt",
+        "reception|empfang|rezeption",
+        "toilet|toilette|wc",
+    )
 )
-"""Words for one kind of room, in both languages."""
+"""Names for one kind of room, in both languages."""
 
 
 ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
