@@ -65,7 +65,7 @@ class Refusal:
 
     @cached_property
     def _words(self) -> list[tuple[TextPiece, set[str]]]:
-        """The words that name no room of the building, no person and the like, with their classes."""
+        """The words that name no room of the building and no person, each with its classes."""
         said = pieces(normalise(self.text, self.spoken).text)
         found = classes_of([piece.text for piece in said], lexicon_of(self.spoken))
         classes = ({name.partition(",")[0] for name in names} for names in found)
