@@ -27,8 +27,6 @@ class Language:
         phrases: format strings that put commands in words; "door:to" is a form of "door".
         answers: what people answer to a question: words for yes and no, for the first and the
             second of two choices, for sides and approaches, and words that may stand beside.
-        founding: words for a person and for the whole house, of which a text must have one before
-            the robot goes to people or searches everywhere; and those for calling and asking.
         wordings: other format strings for these phrases; those of "1" are other words for the
             first, and those of "command" frame a whole command.
     """
@@ -44,7 +42,6 @@ class Language:
     same_as: dict[str, str]
     phrases: dict[str, str]
     answers: dict[str, tuple[str, ...]]
-    founding: dict[str, tuple[str, ...]]
     wordings: dict[str, tuple[str, ...]]
 
     def folded(self, words: str) -> str:

@@ -29,10 +29,6 @@ def load(name: str) -> Language:
         same_as=same_as,
         phrases=table["phrases"],
         answers={key: tuple(words) for key, words in table["answers"].items()},
-        founding={
-            key: tuple(_plain(each, same_as) for each in words)
-            for key, words in table["founding"].items()
-        },
         wordings={key: tuple(words) for key, words in table["wordings"].items()},
     )
 
@@ -54,13 +50,6 @@ def languages() -> dict[str, Language]:
     stems = sorted(file.name[:-5] for file in folder.iterdir() if file.name.endswith(".json"))
     loaded = [load(stem) for stem in stems]
     return {language.code: language for language in loaded}
-
-
-@cache
-def founding_words() -> frozenset[str]:
-    """The words of all languages for people, for the whole house, and for calling and asking."""
-    rows = (row for language in languages().values() for row in language.founding.values())
-    return frozenset(phrase for row in rows for phrase in row)
 
 
 def language_of(language: str | Language) -> Language:

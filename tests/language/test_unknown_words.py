@@ -50,6 +50,8 @@ def test_an_unknown_word_is_no_person(text: str, rooms: tuple[str, ...]) -> None
         "look for people in this room, then go to the zeppelin",
         "fahr zur Person und dann zum zeppelin",
         "back to the kitcen with you",
+        "go back to the famly",
+        "fahr zurück zur boutque",
         "off to the cantteen with you, but stop at the corner for five seconds first",
     ],
 )

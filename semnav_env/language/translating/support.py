@@ -9,10 +9,10 @@ from functools import cached_property
 from semnav_env.language.clauses import Follow, GoBack, Leave, Pace, Stop
 from semnav_env.language.command import Command, reference_of
 from semnav_env.language.finding_clauses import AskName, GoToPerson
-from semnav_env.language.languages import languages
 from semnav_env.language.references import PlaceReference
 from semnav_env.language.vocabulary.lexicon import Lexicon
 from semnav_env.language.vocabulary.recognition import lexicon_for, recognised
+from semnav_env.language.vocabulary.room_words import FOUNDING
 
 _COUNTED = ("one", "ordinal", "another")
 _KINDS = ((GoBack, "back"), (Leave, "leave"), (GoToPerson, "person"), (AskName, "person"))
@@ -52,12 +52,7 @@ class TextSupport:
     def classes(self) -> frozenset[str]:
         """The classes of all phrases in the text, with their values and without."""
         said = f" {' '.join(self.words)} "
-        found = {
-            kind
-            for language in languages().values()
-            for kind, phrases in language.founding.items()
-            if any(f" {phrase} " in said for phrase in phrases)
-        }
+        found = {kind for kind, row in FOUNDING.items() if any(f" {each} " in said for each in row)}
         for at in range(len(self.words)):
             for kind, value, _ in self.lexicon.matches(self.words, at):
                 found |= {kind, f"{kind} {value}"}

@@ -6,14 +6,15 @@ from collections.abc import Iterator, Sequence
 
 from rapidfuzz.distance import OSA
 
+from semnav_env.language.clauses import GoBack
 from semnav_env.language.command import Command
 from semnav_env.language.finding_clauses import AskName, GoToPerson, SearchHouse
-from semnav_env.language.languages import founding_words, languages
+from semnav_env.language.languages import languages
 from semnav_env.language.translating.spoken_values import MIN_MISSPELT
 from semnav_env.language.translating.translator import TranslatedText
 from semnav_env.language.translating.word_classes import UNKNOWN
 from semnav_env.language.vocabulary.lexicon import lexicon_of
-from semnav_env.language.vocabulary.room_words import name_phrases
+from semnav_env.language.vocabulary.room_words import FOUNDING_WORDS, name_phrases
 from semnav_env.language.vocabulary.typos import nearest_word
 
 MOST_SLIPS = 3 / 7
@@ -27,9 +28,9 @@ NAMING = GOING | {"prep in", "in", "prep at", "prep on", "det"}
 
 
 def rests_on_known_words(command: Command, found: TranslatedText, rooms: Sequence[str]) -> bool:
-    """Whether a text has a known word for whom or where a command searches, and for each place.
+    """Whether a text has known words for whom and where a command searches and where it goes back.
 
-    An unknown word may name a place that the command passes over, or takes for a person.
+    An unknown word may name a place that the command passes over, or takes for something else.
 
     Args:
         command: a translation of the text.
@@ -40,7 +41,7 @@ def rests_on_known_words(command: Command, found: TranslatedText, rooms: Sequenc
     unknown = list(_unknown_places(found))
     return not (
         (kinds & {GoToPerson, AskName} and "person" not in said)
-        or (GoToPerson in kinds and any(before & GOING for _, before in unknown))
+        or (kinds & {GoToPerson, GoBack} and any(before & GOING for _, before in unknown))
         or (SearchHouse in kinds and "house" not in said and unknown)
         or any(_is_near(word, rooms) for word, _ in unknown)
     )
@@ -50,7 +51,7 @@ def _unknown_places(found: TranslatedText) -> Iterator[tuple[str, set[str]]]:
     """The unknown words where places are named, with the classes of the words before them."""
     classes = [{name.partition(",")[0] for name in names} for names in found.plain.classes]
     for at, word in enumerate(found.plain.words):
-        if at and classes[at] == {UNKNOWN} and word.isalpha() and word not in founding_words():
+        if at and classes[at] == {UNKNOWN} and word.isalpha() and word not in FOUNDING_WORDS:
             is_article = at > 1 and not classes[at - 1].isdisjoint(("det", "a"))
             before = classes[at - 1] | (classes[at - 2] if is_article else set())
             if before & NAMING:
@@ -60,16 +61,20 @@ def _unknown_places(found: TranslatedText) -> Iterator[tuple[str, set[str]]]:
 def _is_near(word: str, rooms: Sequence[str]) -> bool:
     """Whether a word is a slip or two from the name of a room, or from a known word for one."""
     areas = (lexicon_of(each).of_class("noun area") for each in languages().values())
-    known = {name for phrase in name_phrases(rooms) for name in phrase}.union(*areas)
-    near = nearest_word(word, known) if len(word) >= MIN_MISSPELT else None
+    near = nearest_word(word, _names(rooms).union(*areas)) if len(word) >= MIN_MISSPELT else None
     return near is not None and near[0] == word[0]
 
 
 def near_room(word: str, rooms: Sequence[str]) -> str | None:
     """The word of a room's name that a word was perhaps meant to be; None if it is one, or none."""
-    names = {each for name in name_phrases(rooms) for each in name}
-    slips = {each: OSA.distance(word, each) / len(each) for each in sorted(names)}
-    near = {each for each in names if each[0] == word[0] and slips[each] <= MOST_SLIPS}
+    names = _names(rooms)
+    slips = {each: OSA.distance(word, each) for each in sorted(names) if each[0] == word[0]}
+    near = (each for each in slips if slips[each] <= MOST_SLIPS * len(each))
     if word in names or len(word) < MIN_MISSPELT:
         return None
-    return min(sorted(near), key=slips.__getitem__, default=None)
+    return min(near, key=slips.__getitem__, default=None)
+
+
+def _names(rooms: Sequence[str]) -> frozenset[str]:
+    """The words of the names of rooms."""
+    return frozenset(word for name in name_phrases(rooms) for word in name)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
+from importlib.resources import files
 from types import MappingProxyType
 
 from semnav_env.language.rooms import GERMAN_LETTERS, plain_name, spoken_names, without_accents
@@ -46,29 +48,17 @@ def _in_other_words(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
                 yield from ((*words[:at], *other, *words[at + len(said) :]) for other in kind)
 
 
-_KINDS = tuple(
-    tuple(tuple(name.split()) for name in row.split("|"))
-    for row in (
-        "office|buero",
-        "lab|laboratory|labor",
-        "kitchen|kueche",
-        "bathroom|bad|badezimmer",
-        "bedroom|schlafzimmer",
-        "living room|wohnzimmer",
-        "dining room|esszimmer",
-        "waiting room|wartezimmer",
-        "meeting room|besprechungsraum|besprechungszimmer",
-        "conference room|konferenzraum",
-        "storage room|lagerraum",
-        "classroom|klassenzimmer",
-        "library|bibliothek",
-        "workshop|werkstatt",
-        "reception|empfang|rezeption",
-        "toilet|toilette|wc",
-    )
+_TABLE = json.loads(
+    (files("semnav_env.language.vocabulary") / "people_and_rooms.json").read_text("utf-8")
 )
+_KINDS = [[tuple(name.split()) for name in row.split("|")] for row in _TABLE["rooms"]]
 """Names for one kind of room, in both languages."""
 
+FOUNDING = {kind: frozenset(_TABLE[kind].split("|")) for kind in ("person", "house", "voice")}
+"""Words of both languages for people, for the whole house, and for calling and asking."""
+
+FOUNDING_WORDS = frozenset[str]().union(*FOUNDING.values())
+"""All of them."""
 
 ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
 """Words that people leave out before a room's number."""
