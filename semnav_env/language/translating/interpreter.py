@@ -20,11 +20,7 @@ from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
 from semnav_env.language.translating.defaults import with_defaults
 from semnav_env.language.translating.network import TRAINED_FOLDER, load_translator
 from semnav_env.language.translating.refusal import Refusal, refused_language
-from semnav_env.language.translating.translator import (
-    TranslatedText,
-    Translation,
-    translate,
-)
+from semnav_env.language.translating.translator import TranslatedText, translate
 from semnav_env.language.translating.unknown_words import rests_on_known_words
 from semnav_env.language.vocabulary.recognition import language_of_text
 
@@ -83,8 +79,8 @@ class LearnedInterpreter:
         if self.language is not None and (error := refused_language(text, spoken)):
             raise error
         found = translate(text, self.rooms, load_translator(self.folder))
-        likeliest = found.translations[0] if found and found.translations else None
-        if found and likeliest and self._is_sure(likeliest, found):
+        if found and self._is_sure(found):
+            likeliest = found.translations[0]
             command = with_defaults(likeliest.command, found.support)
             return Interpretation(text, command, spoken, "translator", likeliest.likeness)
         if begins_or_ends_with_stop(text):
@@ -98,19 +94,21 @@ class LearnedInterpreter:
         spoken = language_of(self.language or "en")
         return Interpretation(text, Command((Stop(),)), spoken, "stop")
 
-    def _is_sure(self, likeliest: Translation, found: TranslatedText) -> bool:
-        is_likely = likeliest.likeness >= self.limits.acting
-        return is_likely and rests_on_known_words(likeliest.command, found, self.rooms)
+    def _is_sure(self, found: TranslatedText) -> bool:
+        """Whether the likeliest translation is acted on."""
+        is_likely = any(each.likeness >= self.limits.acting for each in found.translations[:1])
+        return is_likely and rests_on_known_words(found, self.rooms)
 
     def _which_room(self, refusal: Refusal) -> AmbiguousCommandError | None:
         """The question whether an unknown word is the room whose name it is near."""
+        known = refusal.found.plain.rooms if refusal.found else ()
         for text in refusal.with_a_room():
             try:
                 command = self._read(text)
             except CommandError:
                 continue
-            for name in filter(None, map(room_of, command.clauses)):
-                meant = next(each for each in self.rooms if plain_name(each) == name)
+            named = {room_of(clause) for clause in command.clauses}.difference(known)
+            for meant in (each for each in self.rooms if plain_name(each) in named):
                 question = Question((command,), refusal.spoken, self._read, meant)
                 return AmbiguousCommandError(refusal.text, question)
         return None

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 from rapidfuzz.distance import OSA
 
 from semnav_env.language.clauses import GoBack
-from semnav_env.language.command import Command
 from semnav_env.language.finding_clauses import AskName, GoToPerson, SearchHouse
 from semnav_env.language.languages import languages
 from semnav_env.language.translating.spoken_values import MIN_MISSPELT
@@ -27,17 +26,17 @@ NAMING = GOING | {"prep in", "in", "prep at", "prep on", "det"}
 """Classes of the words before any place."""
 
 
-def rests_on_known_words(command: Command, found: TranslatedText, rooms: Sequence[str]) -> bool:
-    """Whether a text has known words for whom and where a command searches and where it goes back.
+def rests_on_known_words(found: TranslatedText, rooms: Sequence[str]) -> bool:
+    """Whether a text has known words for whom and where its likeliest command searches or returns.
 
     An unknown word may name a place that the command passes over, or takes for something else.
 
     Args:
-        command: a translation of the text.
-        found: the text.
+        found: the text, with a command at least.
         rooms: names of the rooms of the floor plan; none if they are not known.
     """
-    kinds, said = set(map(type, command.clauses)), found.support.classes
+    kinds = set(map(type, found.translations[0].command.clauses))
+    said = found.support.classes
     unknown = list(_unknown_places(found))
     return not (
         (kinds & {GoToPerson, AskName} and "person" not in said)
