@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import time
 from collections.abc import Callable
@@ -11,7 +12,7 @@ from semnav_features.frames import Twist
 from semnav_ros import conversions
 from semnav_ros.fields import Values
 from semnav_ros.goal_state import GoalState
-from semnav_ros.messages import OdometryMessage, ScanMessage
+from semnav_ros.messages import OdometryMessage, Phase, ScanMessage
 from semnav_ros.navigator import NavigatorServer
 from semnav_ros.robot_node import STILL
 from semnav_ros.simulated_navigator import SimulatedNavigator
@@ -46,6 +47,7 @@ class RobotShell:
         lockstep: whether simulated time stands still until the node has answered a scan.
         navigator: drives the robot to the goals that it is given, unless velocities are heard.
         server: tells what becomes of these goals.
+        notes: called with why a command begins no episode, or is impossible by its node.
 
     Attributes:
         delays: seconds from each scan that was said, or the oldest that got no answer, to the
@@ -61,18 +63,21 @@ class RobotShell:
         lockstep: bool = False,
         navigator: SimulatedNavigator | None = None,
         server: NavigatorServer | None = None,
+        notes: Callable[[str], None] = lambda note: None,
     ) -> None:
-        self._navigator, self._server = navigator, server
+        self._navigator, self._server, self._notes = navigator, server, notes
         self._robot, self._wire, self._topics, self._speed = robot, wire, topics, speed
         self._lockstep, self._awaits = lockstep, False
         self._velocity: Twist = STILL
         self._unanswered: float | None = None
         self.delays: list[float] = []
         self._heard_at = -math.inf
+        self._is_impossible = False
         for topic in (topics.scan, topics.odom, topics.bumps, topics.tf_static, topics.command):
             wire.announce(topic)
         wire.hear(topics.cmd_vel, self._obey)
         wire.hear(topics.command, self._listen)
+        wire.hear(topics.status, self._take_status)
 
     def run(self, goes_on: Callable[[], bool], command: str | None = None) -> dict[str, Any] | None:
         """Run until told otherwise, or a little longer than an episode; returns its outcome.
@@ -133,7 +138,18 @@ class RobotShell:
 
     def _listen(self, values: Values) -> None:
         self._robot.tell(values["text"])
+        if self._robot.refusal:
+            self._notes(self._robot.refusal)
         self._unanswered, self._awaits = None, True
+
+    def _take_status(self, values: Values) -> None:
+        status = json.loads(values["text"])
+        was_impossible, self._is_impossible = (
+            self._is_impossible,
+            status["phase"] == Phase.IMPOSSIBLE,
+        )
+        if self._is_impossible and not was_impossible:
+            self._notes(f"impossible: {'; '.join(status['reasons'])}")
 
     def _obey(self, values: Values) -> None:
         self._velocity, self._heard_at = conversions.twist_of(values), time.monotonic()

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from semnav_env.env import SemNavEnv
-from semnav_env.language import CommandError, parse
+from semnav_env.language import Command, CommandError, parse
 from semnav_env.mind.grounding import GroundingError
 from semnav_features.frames import ORIGIN, Pose, Twist, compose
 from semnav_ros.messages import Bumps, OdometryMessage, ScanMessage
@@ -66,12 +66,19 @@ class SimulatedRobot:
         """Pose of the lidar in the base frame, which lies in the middle of the body."""
         return self._env.robot.lidar_mount
 
+    def read(self, text: str) -> Command:
+        """The command that a text means in this floor plan.
+
+        Raises:
+            CommandError: it means none, or leaves open which.
+        """
+        return parse(text, rooms=self._env.floor_plan.room_names)
+
     def tell(self, text: str) -> None:
         """Begin an episode with a command, where the robot stands."""
         at, odometry = self._simulator.motion.pose, self._odometry
         try:
-            command = parse(text, rooms=self._env.floor_plan.room_names)
-            self._env.reset(seed=self._seed, options={"command": command, "pose": at})
+            self._env.reset(seed=self._seed, options={"command": self.read(text), "pose": at})
         except (CommandError, GroundingError) as error:
             self.refusal = str(error)
             self._runs = False

@@ -42,7 +42,8 @@ class Arguments:
         growth: time instead how a step grows with the building, the beams and the robots.
         start: measure instead the processor time of processes that import, ground, or make an
             environment.
-        cold: with --start, also compile all kernels into an empty folder, about a minute.
+        cold: with --start, also compile all kernels into an empty folder: about a minute on an
+            idle machine, several on a busy one.
         runs: number of timings of each part, of which the median is shown.
         steps: number of calls in a timing.
         json: print as JSON.

@@ -12,6 +12,7 @@ import time
 import tomllib
 from dataclasses import dataclass
 from importlib import metadata
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
@@ -100,6 +101,29 @@ def editable_install() -> InstallationCheck:
         f"does not know {', '.join(missing)}" if missing else f"knows all packages of {checkout}",
         f"the checkout has changed since: pip install -e {checkout}",
     )
+
+
+def imported_copy() -> InstallationCheck:
+    """Check that in a checkout its own packages are imported, and not another copy of them."""
+    here = Path.cwd()
+    checkout = next(filter(_is_checkout, (here, *here.parents)), None)
+    found = find_spec("semnav_env")
+    imported = Path(found.origin).parents[1] if found and found.origin else None
+    ok = checkout is None or (imported is not None and imported.samefile(checkout))
+    return InstallationCheck(
+        "imported copy",
+        ok,
+        f"{imported}" if ok else f"{imported}, and not this checkout",
+        f"to use the code of {checkout}: pip install -e {checkout}",
+        needed=False,
+    )
+
+
+def _is_checkout(folder: Path) -> bool:
+    project = folder / "pyproject.toml"
+    if not (folder / "semnav_env").is_dir() or not project.is_file():
+        return False
+    return bool(tomllib.loads(project.read_text("utf-8"))["project"]["name"] == _PACKAGE)
 
 
 def missing_packages(checkout: Path, known: str) -> list[str]:

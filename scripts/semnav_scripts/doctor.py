@@ -72,6 +72,7 @@ _ADVICE = "set SEMNAV_CACHE_DIR to a folder that you may write to, or reinstall 
 
 _TRIALS: dict[str, Callable[[], list[InstallationCheck]]] = {
     "editable install": lambda: [checks.editable_install()],
+    "imported copy": lambda: [checks.imported_copy()],
     "drawing without a display": lambda: [checks.headless_drawing()],
     "compiled kernels": checks.kernels,
 }

@@ -9,6 +9,12 @@ from semnav_features.validation import require
 INSTALL = 'the page needs Starlette and uvicorn: pip install "semnav-env[serve]"'
 """Said where the extra is missing."""
 
+GETTING_READY = (
+    "getting ready; kernels used for the first time are compiled: about a minute on an idle "
+    "machine, several on a busy one"
+)
+"""Said before the page can be opened."""
+
 EVERYWHERE = ("", "0.0.0.0", "::")
 """Addresses that stand for all of a machine: no browser names them as `Host`."""
 
@@ -57,7 +63,7 @@ class Arguments:
         from semnav_scripts.page.warm_up import warm_up
 
         with listening(self.host, self.port) as place:
-            print("getting ready: the first time this compiles for a minute or two", flush=True)
+            print(GETTING_READY, flush=True)
             warm_up()
             port = place.getsockname()[1]
             name = f"[{self.host}]" if ":" in self.host else self.host

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from tyro.conf import Positional
@@ -68,12 +69,15 @@ class Arguments:
         wire = open_wire(self.over, "semnav_robot")
         try:
             robot = SimulatedRobot(self.map, self.robot, pose, self.seed)
+            if self.command is not None:
+                robot.read(self.command)  # refused now, and not when a node listens
             navigator, server = None, None
             if self.navigator is not None:
                 navigator = robot.navigator
-                told = topics, navigator.take, self.action
-                server = open_navigator_server(self.navigator, wire, *told)
-            shell = RobotShell(robot, wire, topics, self.speed, self.lockstep, navigator, server)
+                heard = topics, navigator.take, self.action
+                server = open_navigator_server(self.navigator, wire, *heard)
+            told = self.speed, self.lockstep, navigator, server, partial(print, flush=True)
+            shell = RobotShell(robot, wire, topics, *told)
             print(self._waits_for(), flush=True)
             end = time.monotonic() + self.seconds
             outcome = shell.run(lambda: time.monotonic() < end, self.command)

@@ -44,17 +44,23 @@ class Question:
         readings: the commands that the text can mean, the likelier first. One alone is doubtful.
         language: of the speaker.
         read: reads an answer that is a whole command; without it such answers settle nothing.
+        meant: the room for which an unknown word was taken; the question is whether it is meant.
     """
 
     readings: tuple[Command, ...]
     language: Language = field(repr=False)
     read: Read | None = field(default=None, repr=False, compare=False)
+    meant: str | None = None
 
     @cached_property
     def text(self) -> str:
         """What is asked, such as "Through it, or only up to it?"."""
-        one = self.language.say("question_one", choice=self.choices[0].name)
-        asked = self._of_two if self.names_both else one
+        if self.meant is not None:
+            asked = self.language.say("did_you_mean", word=self.meant)
+        elif self.names_both:
+            asked = self._of_two
+        else:
+            asked = self.language.say("question_one", choice=self.choices[0].name)
         return asked[0].upper() + asked[1:]
 
     @cached_property

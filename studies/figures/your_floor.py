@@ -30,7 +30,7 @@ def main() -> None:
         image.imshow(imread("floor.png"), cmap="gray", vmin=0.0, vmax=1.0)
         draw_floor_plan(load_floor_plan(Path("floor.geojson")), walls, names=False)
         next(blocks)
-        draw_floor_plan(load_floor_plan(Path("floor.geojson")), plan)
+        draw_floor_plan(load_floor_plan(Path("named.geojson")), plan)
         leave_out_overlapping(plan)
     for ax, title in ((image, "the map"), (walls, "imported"), (plan, "doors and rooms drawn")):
         ax.set_title(title)

@@ -42,6 +42,15 @@ def test_a_page_prints_what_it_shows(
         assert same, f"{shown.code}\nprinted\n{shown.printed}"
 
 
+def test_the_script_of_your_floor_runs_as_often_as_one_likes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    blocks = run_page("docs/tutorials/your_floor.md")  # each runs when it is drawn
+    script = next(shown.code for shown in blocks if "with_room" in shown.code)
+    exec(compile(script, "script", "exec"), {})
+
+
 def test_every_tutorial_is_run() -> None:
     tutorials = {path.name for path in (ROOT / "docs" / "tutorials").glob("*.md")}
     assert {Path(page).name for page in PAGES if "/tutorials/" in page} == tutorials

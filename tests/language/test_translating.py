@@ -42,6 +42,20 @@ def test_values_sides_and_rooms_are_taken_out() -> None:
 
 
 @pytest.mark.parametrize(
+    ("said", "named"),
+    [
+        ("Wohnzimmer", "living room"),
+        ("Wartezimmer", "Waiting room 2"),
+        ("meeting room", "Besprechungsraum"),
+        ("Esszimmer", "dining room"),
+    ],
+)
+def test_a_kind_of_room_is_known_in_both_languages(said: str, named: str) -> None:
+    numbered = f"{said} 2" if named.endswith("2") else said
+    assert masked(f"go to the {numbered}", (named,)).rooms == (named.lower(),)
+
+
+@pytest.mark.parametrize(
     ("text", "values"),
     [
         ("the twenty-fifth door", (25.0,)),

@@ -1,11 +1,14 @@
 """The simulated robot on a wire whose node answers late, or never; both by a clock of the test."""
 
 import itertools
+import json
 from types import SimpleNamespace
 
 import pytest
 
+from semnav_env.language import CommandError
 from semnav_ros import conversions, robot_shell
+from semnav_ros.messages import Phase
 from semnav_ros.robot_shell import PATIENCE, RobotShell
 from semnav_ros.simulated_robot import SimulatedRobot
 from semnav_ros.topics import NodeTopics
@@ -86,3 +89,35 @@ def test_a_node_that_falls_silent_is_waited_for_once(run):
 def test_lockstep_is_refused_where_no_velocities_are_said():
     with pytest.raises(ValueError, match="with --navigator leave it out"):
         simulate.Arguments(lockstep=True, navigator="topic").run()
+
+
+def noted(*said):
+    """What a robot notes of commands and of what its node says."""
+    wire, notes = LoopWire(), []
+    robot = SimulatedRobot("heidelberg_hallway", pose=(1.0, 0.3, 0.24))
+    RobotShell(robot, wire, TOPICS, notes=notes.append)
+    for topic, text in said:
+        wire.say(topic, {"text": text})
+    return notes
+
+
+def test_a_command_that_begins_no_episode_is_noted():
+    assert noted((TOPICS.command, "go down the hallway")) == []
+    (note,) = noted((TOPICS.command, "sing a song"))
+    assert "sing" in note
+
+
+def test_a_robot_notes_once_that_its_node_finds_a_clause_impossible():
+    running = json.dumps({"phase": Phase.RUNNING, "reasons": []})
+    impossible = json.dumps({"phase": Phase.IMPOSSIBLE, "reasons": ["no door on the left"]})
+    states = [(TOPICS.status, text) for text in (running, impossible, impossible, running)]
+    assert noted(*states) == ["impossible: no door on the left"]
+
+
+def test_a_command_that_is_none_is_refused_before_a_node_listens(monkeypatch):
+    wire = LoopWire()
+    wire.close = lambda: None
+    monkeypatch.setattr(simulate, "open_wire", lambda *_: wire)
+    with pytest.raises(CommandError, match="sing"):
+        simulate.Arguments("sing a song").run()
+    assert wire.said == []

@@ -152,3 +152,25 @@ class Installed:
 
     def locate_file(self, file: Path) -> Path:
         return file
+
+
+def test_in_another_checkout_the_doctor_warns_of_the_copy_that_is_imported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert checks.imported_copy().ok
+    (tmp_path / "semnav_env").mkdir()
+    (tmp_path / "pyproject.toml").write_text('[project]\nname = "semnav-env"\n')
+    (tmp_path / "docs").mkdir()
+    for folder in (tmp_path, tmp_path / "docs"):
+        monkeypatch.chdir(folder)
+        check = checks.imported_copy()
+        assert not check.ok
+        assert not check.needed
+        assert "not this checkout" in check.detail
+        assert f"pip install -e {tmp_path}" in check.fix
+
+
+def test_in_its_own_checkout_the_doctor_is_content(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(Path(checks.__file__).parents[2])
+    assert checks.imported_copy().ok

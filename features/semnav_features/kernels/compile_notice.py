@@ -49,8 +49,8 @@ class CompileNotice:
         if self._spent + time.perf_counter() - since > PATIENCE:
             self._said = True
             print(
-                "semnav-env: compiling kernels used for the first time: about a minute; "
-                "`semnav doctor --warm` compiles all",
+                "semnav-env: compiling kernels used for the first time: about a minute on an "
+                "idle machine, several on a busy one; `semnav doctor --warm` compiles all",
                 file=sys.stderr,
                 flush=True,
             )

@@ -8,17 +8,20 @@ from pathlib import Path
 
 from semnav_env.language.canonical import read_canonical
 from semnav_env.language.clauses import Stop
-from semnav_env.language.command import Command
+from semnav_env.language.command import Command, room_of
+from semnav_env.language.errors import CommandError
 from semnav_env.language.interpreters import Interpretation
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
 from semnav_env.language.named_rooms import check_rooms
 from semnav_env.language.question import AmbiguousCommandError, Ask, Question, ask_until_clear
+from semnav_env.language.rooms import plain_name
 from semnav_env.language.stops import begins_or_ends_with_stop, is_stop
 from semnav_env.language.translating.defaults import with_defaults
 from semnav_env.language.translating.network import TRAINED_FOLDER, load_translator
 from semnav_env.language.translating.refusal import Refusal, refused_language
 from semnav_env.language.translating.translator import TranslatedText, translate
+from semnav_env.language.translating.unknown_words import rests_on_known_words
 from semnav_env.language.vocabulary.recognition import language_of_text
 
 
@@ -76,20 +79,39 @@ class LearnedInterpreter:
         if self.language is not None and (error := refused_language(text, spoken)):
             raise error
         found = translate(text, self.rooms, load_translator(self.folder))
-        likeliest = found.translations[0] if found and found.translations else None
-        if found and likeliest and likeliest.likeness >= self.limits.acting:
+        if found and self._is_sure(found):
+            likeliest = found.translations[0]
             command = with_defaults(likeliest.command, found.support)
             return Interpretation(text, command, spoken, "translator", likeliest.likeness)
         if begins_or_ends_with_stop(text):
             return self._stop(text)
-        if found and (question := self._question(text, spoken, found)):
-            raise question
-        raise Refusal(text, spoken, self.rooms, found).error
+        refusal = Refusal(text, spoken, self.rooms, found)
+        question = self._which_room(refusal) or (found and self._question(text, spoken, found))
+        raise question or refusal.error
 
     def _stop(self, text: str) -> Interpretation:
         """A stop, in whatever text; its language does not matter."""
         spoken = language_of(self.language or "en")
         return Interpretation(text, Command((Stop(),)), spoken, "stop")
+
+    def _is_sure(self, found: TranslatedText) -> bool:
+        """Whether the likeliest translation is acted on."""
+        is_likely = any(each.likeness >= self.limits.acting for each in found.translations[:1])
+        return is_likely and rests_on_known_words(found, self.rooms)
+
+    def _which_room(self, refusal: Refusal) -> AmbiguousCommandError | None:
+        """The question whether an unknown word is the room whose name it is near."""
+        known = refusal.found.plain.rooms if refusal.found else ()
+        for text in refusal.with_a_room():
+            try:
+                command = self._read(text)
+            except CommandError:
+                continue
+            named = {room_of(clause) for clause in command.clauses}.difference(known)
+            for meant in (each for each in self.rooms if plain_name(each) in named):
+                question = Question((command,), refusal.spoken, self._read, meant)
+                return AmbiguousCommandError(refusal.text, question)
+        return None
 
     def _question(
         self, text: str, spoken: Language, found: TranslatedText

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,9 +13,11 @@ from semnav_env.language.languages import languages
 from semnav_env.language.normalise import normalise
 from semnav_env.language.rooms import plain_name
 from semnav_env.language.translating.translator import TranslatedText
+from semnav_env.language.translating.unknown_words import near_room
 from semnav_env.language.translating.word_classes import UNKNOWN, classes_of
 from semnav_env.language.vocabulary.lexicon import lexicon_of
 from semnav_env.language.vocabulary.recognition import votes
+from semnav_env.language.vocabulary.room_words import FOUNDING_WORDS
 from semnav_env.language.vocabulary.typos import nearest_word
 from semnav_env.language.words import TextPiece, pieces
 
@@ -64,16 +66,25 @@ class Refusal:
 
     @cached_property
     def _words(self) -> list[tuple[TextPiece, set[str]]]:
-        """The words that name no room of the building, each with its classes."""
+        """The words that name no room of the building and no person, each with its classes."""
         said = pieces(normalise(self.text, self.spoken).text)
         found = classes_of([piece.text for piece in said], lexicon_of(self.spoken))
         classes = ({name.partition(",")[0] for name in names} for names in found)
         named = {word for room in self.rooms for word in re.split("[^a-z0-9]", plain_name(room))}
+        named |= FOUNDING_WORDS
         return [
             (piece, known)
             for piece, known in zip(said, classes, strict=True)
             if any(map(str.isalnum, piece.text)) and plain_name(piece.text) not in named
         ]
+
+    def with_a_room(self) -> Iterator[str]:
+        """The text with an unknown word replaced by that of a room's name, for each such word."""
+        for piece, known in self._words:
+            near = near_room(piece.text, self.rooms) if known == {UNKNOWN} else None
+            if near:
+                start, length = normalise(self.text, self.spoken).span(piece.start, piece.stop)
+                yield self.text[:start] + near + self.text[start + length :]
 
     def _about(self, piece: TextPiece, phrase: str) -> CommandError:
         """The error that points at a word, and says it as it was written."""

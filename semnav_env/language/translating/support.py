@@ -12,6 +12,7 @@ from semnav_env.language.finding_clauses import AskName, GoToPerson
 from semnav_env.language.references import PlaceReference
 from semnav_env.language.vocabulary.lexicon import Lexicon
 from semnav_env.language.vocabulary.recognition import lexicon_for, recognised
+from semnav_env.language.vocabulary.room_words import FOUNDING
 
 _COUNTED = ("one", "ordinal", "another")
 _KINDS = ((GoBack, "back"), (Leave, "leave"), (GoToPerson, "person"), (AskName, "person"))
@@ -23,7 +24,7 @@ NEEDED = {
     "end": ("noun end", "noun wall", "noun hall", "to end", "end until", "at end", "verb cross"),
     "turning": ("noun turning", "noun hall", "noun intersection", "verb turn", *_COUNTED),
     "back": ("back", "verb return", "verb back", "noun start", "noun way back", "start where"),
-    "person": ("beyond", "it", "pronoun", "relative", "<me>", "<someone>"),
+    "person": ("person",),
     "leave": ("verb leave", "verb exit", "noun room", "noun door", "noun area", "out", "prep out"),
 }
 """For each thing that a command names, the classes of phrases of which a text must have one."""
@@ -50,7 +51,8 @@ class TextSupport:
     @cached_property
     def classes(self) -> frozenset[str]:
         """The classes of all phrases in the text, with their values and without."""
-        found: set[str] = set()
+        said = f" {' '.join(self.words)} "
+        found = {kind for kind, row in FOUNDING.items() if any(f" {each} " in said for each in row)}
         for at in range(len(self.words)):
             for kind, value, _ in self.lexicon.matches(self.words, at):
                 found |= {kind, f"{kind} {value}"}

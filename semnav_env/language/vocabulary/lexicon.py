@@ -56,12 +56,12 @@ class Lexicon:
 
     @cache  # noqa: B019 - as below
     def of_class(self, kind: str) -> frozenset[str]:
-        """The single words of a class."""
+        """The single words of a class, such as "noun" or "noun area"."""
         return frozenset(
             first
             for first, phrases in self.by_first.items()
-            for phrase, each, *_ in phrases
-            if each == kind and phrase == (first,)
+            for phrase, each, value, _ in phrases
+            if kind in (each, f"{each} {value}") and phrase == (first,)
         )
 
     @lru_cache(maxsize=20_000)  # noqa: B019 - the few lexicons live as long as the process

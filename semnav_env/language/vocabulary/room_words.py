@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
+from importlib.resources import files
 from types import MappingProxyType
 
 from semnav_env.language.rooms import GERMAN_LETTERS, plain_name, spoken_names, without_accents
@@ -34,30 +36,29 @@ def _name_phrases(names: tuple[str, ...]) -> Mapping[tuple[str, ...], str]:
 
 
 def _in_other_words(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
-    """A name with one of its words in other words or in the other language: "labor" for "lab".
+    """A name with its kind in other words or in the other language: "labor" for "lab".
 
     Of whose bedroom it is one also says that it is that person's room.
     """
     if len(words) > 1 and words[-1] == "bedroom":
         yield *words[:-1], "room"
-    for at, word in enumerate(words):
+    for at in range(len(words)):
         for kind in _KINDS:
-            if word in kind:
-                yield from ((*words[:at], other, *words[at + 1 :]) for other in kind)
+            for said in filter(lambda said: words[at : at + len(said)] == said, kind):
+                yield from ((*words[:at], *other, *words[at + len(said) :]) for other in kind)
 
 
-_KINDS = (
-    ("office", "buero"),
-    ("lab", "laboratory", "labor"),
-    ("kitchen", "kueche"),
-    ("bathroom", "bad", "badezimmer"),
-    ("bedroom", "schlafzimmer"),
-    ("library", "bibliothek"),
-    ("workshop", "werkstatt"),
-    ("toilet", "toilette", "wc"),
+_TABLE = json.loads(
+    (files("semnav_env.language.vocabulary") / "people_and_rooms.json").read_text("utf-8")
 )
-"""Words for one kind of room, in both languages."""
+_KINDS = [[tuple(name.split()) for name in row.split("|")] for row in _TABLE["rooms"]]
+"""Names for one kind of room, in both languages."""
 
+FOUNDING = {kind: frozenset(_TABLE[kind].split("|")) for kind in ("person", "house", "voice")}
+"""Words of both languages for people, for the whole house, and for calling and asking."""
+
+FOUNDING_WORDS = frozenset[str]().union(*FOUNDING.values())
+"""All of them."""
 
 ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
 """Words that people leave out before a room's number."""
