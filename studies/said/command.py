@@ -19,7 +19,7 @@ from studies.sheets import Cell, ResultSheet
 
 TEXTS = Path(__file__).parent / "finding.jsonl"
 """Six wordings of each command of the suite, half of them German. They were frozen before any was
-read, and nothing was learned from them or tuned on them."""
+read, and nothing was learned from them; names of rooms were added after they had been read."""
 
 SUITE, AGENT = "villa_find", "finder"
 

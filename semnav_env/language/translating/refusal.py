@@ -17,7 +17,7 @@ from semnav_env.language.translating.unknown_words import near_room
 from semnav_env.language.translating.word_classes import UNKNOWN, classes_of
 from semnav_env.language.vocabulary.lexicon import lexicon_of
 from semnav_env.language.vocabulary.recognition import votes
-from semnav_env.language.vocabulary.room_words import FOUNDING_WORDS
+from semnav_env.language.vocabulary.room_words import SUPPORTING_WORDS
 from semnav_env.language.vocabulary.typos import nearest_word
 from semnav_env.language.words import TextPiece, pieces
 
@@ -71,7 +71,7 @@ class Refusal:
         found = classes_of([piece.text for piece in said], lexicon_of(self.spoken))
         classes = ({name.partition(",")[0] for name in names} for names in found)
         named = {word for room in self.rooms for word in re.split("[^a-z0-9]", plain_name(room))}
-        named |= FOUNDING_WORDS
+        named |= SUPPORTING_WORDS
         return [
             (piece, known)
             for piece, known in zip(said, classes, strict=True)

@@ -12,7 +12,7 @@ from semnav_env.language.finding_clauses import AskName, GoToPerson
 from semnav_env.language.references import PlaceReference
 from semnav_env.language.vocabulary.lexicon import Lexicon
 from semnav_env.language.vocabulary.recognition import lexicon_for, recognised
-from semnav_env.language.vocabulary.room_words import FOUNDING
+from semnav_env.language.vocabulary.room_words import SUPPORTING
 
 _COUNTED = ("one", "ordinal", "another")
 _KINDS = ((GoBack, "back"), (Leave, "leave"), (GoToPerson, "person"), (AskName, "person"))
@@ -52,7 +52,9 @@ class TextSupport:
     def classes(self) -> frozenset[str]:
         """The classes of all phrases in the text, with their values and without."""
         said = f" {' '.join(self.words)} "
-        found = {kind for kind, row in FOUNDING.items() if any(f" {each} " in said for each in row)}
+        found = {
+            kind for kind, row in SUPPORTING.items() if any(f" {each} " in said for each in row)
+        }
         for at in range(len(self.words)):
             for kind, value, _ in self.lexicon.matches(self.words, at):
                 found |= {kind, f"{kind} {value}"}

@@ -13,7 +13,7 @@ from semnav_env.language.translating.spoken_values import MIN_MISSPELT
 from semnav_env.language.translating.translator import TranslatedText
 from semnav_env.language.translating.word_classes import UNKNOWN
 from semnav_env.language.vocabulary.lexicon import lexicon_of
-from semnav_env.language.vocabulary.room_words import FOUNDING_WORDS, name_phrases
+from semnav_env.language.vocabulary.room_words import SUPPORTING_WORDS, name_phrases
 from semnav_env.language.vocabulary.typos import nearest_word
 
 MOST_SLIPS = 3 / 7
@@ -50,7 +50,7 @@ def _unknown_places(found: TranslatedText) -> Iterator[tuple[str, set[str]]]:
     """The unknown words where places are named, with the classes of the words before them."""
     classes = [{name.partition(",")[0] for name in names} for names in found.plain.classes]
     for at, word in enumerate(found.plain.words):
-        if at and classes[at] == {UNKNOWN} and word.isalpha() and word not in FOUNDING_WORDS:
+        if at and classes[at] == {UNKNOWN} and word.isalpha() and word not in SUPPORTING_WORDS:
             is_article = at > 1 and not classes[at - 1].isdisjoint(("det", "a"))
             before = classes[at - 1] | (classes[at - 2] if is_article else set())
             if before & NAMING:

@@ -54,10 +54,10 @@ _TABLE = json.loads(
 _KINDS = [[tuple(name.split()) for name in row.split("|")] for row in _TABLE["rooms"]]
 """Names for one kind of room, in both languages."""
 
-FOUNDING = {kind: frozenset(_TABLE[kind].split("|")) for kind in ("person", "house", "voice")}
+SUPPORTING = {kind: frozenset(_TABLE[kind].split("|")) for kind in ("person", "house", "voice")}
 """Words of both languages for people, for the whole house, and for calling and asking."""
 
-FOUNDING_WORDS = frozenset[str]().union(*FOUNDING.values())
+SUPPORTING_WORDS = frozenset[str]().union(*SUPPORTING.values())
 """All of them."""
 
 ROOM_WORDS = frozenset({"room", "zimmer", "raum", "office", "buero", "saal"})
