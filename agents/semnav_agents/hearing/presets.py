@@ -82,6 +82,7 @@ HEARING_PRESETS = {
                 HearingRound(700, 8, drivers=("scripted",)),
                 HearingRound(200, 10, 1e-3),
                 HearingRound(1100, 10, 8e-4, MIXED_DRIVERS, MIXED_ROBOTS),
+                HearingRound(1700, 12, 8e-4, MIXED_DRIVERS, MIXED_ROBOTS),
             ),
         ),
     )
