@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_agents.pilot_rules import STUCK_STEPS, count_pushing, place_aim
+from semnav_agents.pilot_rules import (
+    REACH_TOLERANCE,
+    STUCK_STEPS,
+    count_pushing,
+    place_aim,
+)
 from semnav_agents.planning.door_aims import SAME_DOOR_DISTANCE, jambs_facing
 from semnav_agents.planning.doorway import barriers_across
 from semnav_agents.planning.driver import Driver
@@ -54,10 +60,13 @@ class Pilot:
     Args:
         robot: the body.
         alternatives: whether to try other poses where no path leads straight through a door.
+
+    Attributes:
+        tolerance: distance at which a place to stop at counts as reached, metres.
     """
 
     def __init__(self, robot: RobotSpec, alternatives: bool = True) -> None:
-        self.robot = robot
+        self.robot, self.tolerance = robot, REACH_TOLERANCE
         self.driver = Driver(robot)
         self._exit = ExitViaDoor(robot, alternatives)
         self._pushed = 0
@@ -129,7 +138,8 @@ class Pilot:
     def _target(self, goal: SeenGoal, pose: Pose) -> DriveTarget:
         """The drive target for a goal that is no door, in the frame of `pose`."""
         seeks = goal.kind is GoalKind.SEEK
-        return DriveTarget.of(place_aim(seeks, goal.pose, pose, float(self.robot.axle)))
+        target = DriveTarget.of(place_aim(seeks, goal.pose, pose, float(self.robot.axle)))
+        return target if seeks else replace(target, position_tolerance=self.tolerance)
 
     def _note(self, steering: Steering, obstacles: Obstacles) -> None:
         """Move on to the next pose through a door, or to another way if this one failed."""

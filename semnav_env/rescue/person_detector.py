@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import shapely
-from shapely import Polygon
 
 from semnav_env.rescue.settings import PersonDetectorSettings
+from semnav_env.world.dynamics.victim_sight import OUTLINE_TOLERANCE, outline_of
 from semnav_env.world.dynamics.victims import victims_of
 from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps.floor_plan import FloorPlan
@@ -17,12 +16,6 @@ from semnav_features.lidar_spec import LidarSpec
 
 RAY_ANGLE = math.radians(0.5)
 """Angle between the rays that determine what is in view, radians: 5 cm apart at 6 m."""
-
-OUTLINE_POINTS = 24
-"""Number of points of an outline that are tested for being in view."""
-
-OUTLINE_TOLERANCE = 0.08
-"""Distance by which a point may lie behind the end of the nearest ray, metres: rays have gaps."""
 
 
 class PersonDetector:
@@ -57,7 +50,7 @@ class PersonDetector:
         look_alikes = [piece for piece, like in zip(pieces, chosen, strict=True) if like]
         bodies = [*self.victims, *look_alikes]
         self._real = np.arange(len(bodies)) < len(self.victims)
-        self._outlines = [_outline(body) for body in bodies]
+        self._outlines = [outline_of(body) for body in bodies]
         self._middles = [(body.centroid.x, body.centroid.y) for body in bodies]
 
     def look(self, pose: Pose) -> FloatArray:
@@ -114,10 +107,3 @@ def view_spec(settings: PersonDetectorSettings) -> LidarSpec:
     return LidarSpec(
         "person detector", beams, -half, RAY_ANGLE, range_min=0.0, range_max=settings.range_max
     )
-
-
-def _outline(body: Polygon) -> FloatArray:
-    """Points along an outline, evenly spaced, shape (n, 2)."""
-    shares = np.arange(OUTLINE_POINTS) / OUTLINE_POINTS
-    points = shapely.line_interpolate_point(body.exterior, shares, normalized=True)
-    return np.asarray(shapely.get_coordinates(points))

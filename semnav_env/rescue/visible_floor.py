@@ -9,6 +9,7 @@ import numpy as np
 
 from semnav_env.rescue.settings import PersonDetectorSettings
 from semnav_env.robots import RobotSpec
+from semnav_env.world.dynamics.victim_sight import ALL_AROUND
 from semnav_env.world.grid.cells import Grid
 from semnav_env.world.grid.poses import REACHED, Reach
 from semnav_env.world.grid.rays import Cells, mark_in_view
@@ -16,7 +17,6 @@ from semnav_env.world.lidar.lidar import Lidar
 from semnav_env.world.maps.cell_budget import spacing_within_budget
 from semnav_env.world.maps.floor_plan import FloorPlan
 from semnav_env.world.maps.reach import reach
-from semnav_features.lidar_spec import LidarSpec
 
 CELL = 0.1
 """Distance between the cells of the floor, metres."""
@@ -29,9 +29,6 @@ HEADINGS = 24
 
 BORDER = 32
 """Cells around the plan, 1.6 m: the body may stand right inside the outer walls."""
-
-ALL_AROUND = LidarSpec("all around", 720, -math.pi, math.radians(0.5), range_min=0.0)
-"""Rays of a look all around."""
 
 
 def floor_grid(plan: FloorPlan) -> Grid:

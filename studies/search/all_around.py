@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from semnav_env.rescue.settings import PersonDetectorSettings
-from semnav_env.rescue.visible_floor import ALL_AROUND, STANDPOINT
+from semnav_env.rescue.visible_floor import STANDPOINT
 from semnav_env.robots import RobotSpec
+from semnav_env.world.dynamics.victim_sight import ALL_AROUND
 from semnav_env.world.grid.cells import Grid
 from semnav_env.world.grid.rays import Cells, mark_in_view
 from semnav_env.world.lidar.lidar import Lidar

@@ -17,11 +17,14 @@ from semnav_env.rescue import (
     PersonMapSettings,
     SearchRules,
 )
+from semnav_env.rescue.environment import search_and_rescue
 from semnav_env.rescue.outcome import Report, judge_reports
 from semnav_env.rescue.person_detector import PersonDetector
 from semnav_env.rescue.room_coverage import RoomCoverage
 from semnav_env.robots import SPOT
 from semnav_env.world.dynamics import Dynamics, PlanSource
+from semnav_env.world.dynamics.furniture import FurnitureMover, free_ways
+from semnav_env.world.dynamics.victim_sight import in_sight
 from semnav_env.world.dynamics.victims import VICTIM_SPACING, victims_of
 from semnav_env.world.maps import FloorPlan, Material, Surface, generate_office
 from semnav_features.lidars import TIM561
@@ -47,6 +50,27 @@ def body(x: float, y: float, material: Material = Material.PERSON) -> Surface:
 
 def detector(plan: FloorPlan, settings: PersonDetectorSettings = SURE) -> PersonDetector:
     return PersonDetector(plan, settings, ORIGIN, np.random.default_rng(0))
+
+
+@pytest.mark.parametrize(
+    ("behind", "seen"), [(True, False), (False, True)], ids=["behind", "beside"]
+)
+def test_who_lies_behind_a_long_cupboard_is_not_in_sight(behind: bool, seen: bool) -> None:
+    """The robot's ways lie in the western half, the cupboard stands between the halves."""
+    x = 1.0 if behind else -1.5
+    cupboard = Surface(tuple(shapely.box(-0.2, -4.9, 0.2, 4.9).exterior.coords))
+    plan = hall(body(x, 0.0), cupboard)
+    assert in_sight(plan, victims_of(plan), shapely.box(-4.5, -4.5, -0.7, 4.5)) is seen
+
+
+@pytest.mark.parametrize("seed", [10_153, 10_167, 10_252])
+def test_a_victim_drawn_out_of_sight_is_laid_down_elsewhere(seed: int) -> None:
+    """In these houses the first draw has a victim whom nobody can see from within 2 m."""
+    env = search_and_rescue(robot="spot")
+    env.reset(seed=seed)
+    plan, half = env.floor_plan, FurnitureMover(env.floor_plan, SPOT, None).half_lane
+    ways = max(free_ways(plan, half), key=lambda way: way.area)
+    assert in_sight(plan, victims_of(plan), ways)
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -93,6 +93,7 @@ class Explorer:
             Pilot(RobotSpec(**info["robot"])),
             LidarSpec(**info["lidar"]),
         )
+        self._pilot.tolerance = self.settings.stop_tolerance
         self._detector = PersonDetectorSettings(**info["person_detector"])
         self._beams = self._lidar.directions
         self._obstacles.reset()

@@ -130,7 +130,7 @@ class LookTask:
         self._axle = looker.robot.axle
         self._place: Pose | None = _place_to_turn(chart, looker, pose, radius)
         self._patience = PATIENCE
-        self._tolerance = chart.settings.position_tolerance
+        self._tolerance = chart.settings.near_tolerance
         self._turned, self._heading = 0.0, pose[2]
         self._least = self._most = 0.0
         self._rate, self._idle = TURN_RATE, 0
@@ -277,7 +277,7 @@ class PersonTask:
     def _arrived(self, pose: Pose) -> bool:
         assert self._target is not None
         s = self._chart.settings
-        near = math.dist(pose[:2], self._target[:2]) < s.position_tolerance
+        near = math.dist(pose[:2], self._target[:2]) < s.near_tolerance
         return near and abs(wrap_angle(pose[2] - self._target[2])) < s.heading_tolerance
 
     def _look(self, reported: bool) -> None:

@@ -9,7 +9,8 @@ import numpy as np
 import shapely
 
 from semnav_agents.planning.obstacles import points_of_segments
-from semnav_agents.searching.search_map import Mask, SearchMap
+from semnav_agents.searching.outlines import Mask
+from semnav_agents.searching.search_map import SearchMap
 from semnav_agents.searching.settings import SearchSettings
 from semnav_env.language.rooms import plain_name
 from semnav_env.world.maps import FloorPlan, Material
@@ -18,6 +19,9 @@ from semnav_features.frames import FloatArray, Pose, Twist, points_to_local, poi
 
 MARGIN = 1.0
 """Distance that the map reaches beyond the house, metres: the believed pose drifts."""
+
+OUTLINE_STEP = 0.01
+"""Distance between the points of walls that count as hits, metres: five to a cell."""
 
 KNOWN_MARGIN = 6
 """Cells around what was seen within which the plan's walls no longer count for driving: there the
@@ -57,6 +61,7 @@ class HousePlan:
         lower, upper = self.wall_points.min(axis=0) - MARGIN, self.wall_points.max(axis=0) + MARGIN
         chart = SearchMap(settings, tuple(lower.tolist()), tuple(upper.tolist()))
         chart.walls[chart.grid.cells(*self.wall_points.T)] = True
+        chart.add_hits(points_of_segments(self.walls, OUTLINE_STEP))
         cells = np.argwhere(np.ones(chart.rooms.shape, bool))
         x, y = points_to_parent(self._start, chart.grid.points(cells)).T
         for number, region in reversed(list(enumerate(numbered_regions(self._plan)))):

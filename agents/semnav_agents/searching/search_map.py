@@ -12,13 +12,12 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from semnav_agents.searching.outlines import HITS, Mask, cells_near, drawn, outline_points
 from semnav_agents.searching.settings import SearchSettings
 from semnav_env.world.grid.cells import Grid
 from semnav_env.world.maps.cell_budget import check_cells
 from semnav_features.frames import FloatArray, Point, Pose
 from semnav_features.kernels.compiling import kernel
-
-Mask = NDArray[np.bool_]
 
 HIT, MOST_HITS, SOLID = 4, 40, 4
 """What a beam that ends in a cell adds, the most that a cell has, and from what on it is solid. A
@@ -45,6 +44,7 @@ class SearchMap:
     Attributes:
         grid: corner and size of the cells.
         hits: evidence that a cell is solid, shape (rows, columns).
+        ends: where the beams in a cell ended, `HITS`, same shape.
         found: properties of each cell, bits, same shape.
         tries: how often a cell stayed unseen from a pose that was expected to show it, same shape.
         walls: cells of walls of the plan, same shape; none without a plan.
@@ -56,10 +56,19 @@ class SearchMap:
         shape = self.grid.shape
         check_cells(math.prod(shape), f"maps of a search in steps of {settings.spacing} m")
         self.hits = np.zeros(shape, np.int64)
+        self.ends = np.zeros(shape, HITS)
         self.found = np.zeros(shape, np.uint8)
         self.tries = np.zeros(shape, np.uint8)
         self.walls = np.zeros(shape, np.bool_)
         self.rooms = np.full(shape, -1)
+
+    def add_hits(self, points: FloatArray) -> None:
+        """Add points of the outlines of what is solid, shape (n, 2)."""
+        cells = self.grid.cells(*points.T)
+        x, y = (points - self.grid.points(np.column_stack(cells))).T
+        np.add.at(self.ends["count"], cells, 1.0)
+        np.add.at(self.ends["x"], cells, x)
+        np.add.at(self.ends["y"], cells, y)
 
     def update(
         self, eye: Pose, directions: FloatArray, ranges: FloatArray, fov: float, view: float
@@ -75,12 +84,18 @@ class SearchMap:
         """
         s = self.settings
         reaches = (s.short_range, s.long_range, view, math.cos(fov / 2))
-        _cast(self.hits, self.found, *self.grid.frame, eye, directions, ranges, *reaches)
+        _cast(self.hits, self.ends, self.found, *self.grid.frame, eye, directions, ranges, *reaches)
 
     @property
     def solid(self) -> Mask:
         """Cells with an obstacle or a wall of the plan."""
         return np.asarray((self.hits >= SOLID) | self.walls)
+
+    def sight(self) -> tuple[Mask, Mask]:
+        """The outlines that end lines of sight, and the cells near them; see `outlines`."""
+        spacing = self.grid.spacing
+        outline = drawn(outline_points(self.ends, self.solid, spacing), spacing)
+        return outline, cells_near(outline)
 
     def solid_at(self, point: Point) -> bool:
         """Whether an obstacle stands at a point."""
@@ -109,6 +124,7 @@ def without_lost(ranges: FloatArray, range_max: float) -> FloatArray:
 @kernel
 def _cast(
     hits: NDArray[np.int64],
+    ends: np.ndarray,
     found: NDArray[np.uint8],
     west: float,
     south: float,
@@ -153,3 +169,6 @@ def _cast(
             row = round((eye[1] + reach * dy - south) / spacing)
             if 0 <= row < rows and 0 <= column < columns:
                 hits[row, column] = min(hits[row, column] + HIT, MOST_HITS)
+                ends[row, column].count += 1.0
+                ends[row, column].x += eye[0] + reach * dx - west - spacing * column
+                ends[row, column].y += eye[1] + reach * dy - south - spacing * row

@@ -159,8 +159,12 @@ class Searcher:
         self._looks, self._nearest, self._since = 0, math.inf, 0
 
     def _arrived(self, pose: Pose) -> bool:
+        """Whether the target is reached; a robot that stands near it does not get any nearer."""
         assert self.target is not None
-        near = math.dist(pose[:2], self.target[:2]) < self._settings.position_tolerance
+        s = self._settings
+        exact = self._view is not None and self._idle <= s.settle
+        tolerance = s.position_tolerance if exact else s.near_tolerance
+        near = math.dist(pose[:2], self.target[:2]) < tolerance
         turned = abs(wrap_angle(pose[2] - self.target[2]))
         return near and turned < self._settings.heading_tolerance
 
@@ -191,7 +195,7 @@ class Searcher:
         left = view.cells[(wanted_cells(chart) & ~ought).ravel()[view.cells]]
         chart.tries.ravel()[left] += 1
         if self._left_share(view) > 0.5:
-            self._refuse(view, self._settings.position_tolerance)
+            self._refuse(view, self._settings.near_tolerance)
 
     def _left_share(self, view: View) -> float:
         """Share of the cells of a view that are still unseen."""

@@ -44,6 +44,11 @@ class SearchSettings:
         person_range: least and largest distance from which a person is inspected, metres.
         person_looks: control periods of standing before a possible person.
         person_tries: poses from which a possible person is inspected before being left out.
+        stop_tolerance: distance from a target at which the robot stops, metres: beside a narrow gap
+            another place shows other floor.
+        position_tolerance: distance from a lookout at which it counts as reached, metres.
+        near_tolerance: the same for other targets, and for a robot that stands still, metres.
+        heading_tolerance: heading error with which a target counts as reached, radians.
         suspicion: probability from which on a possible person is inspected from near.
     """
 
@@ -77,5 +82,7 @@ class SearchSettings:
     person_looks: int = 40
     person_tries: int = 3
     suspicion: float = 0.1
-    position_tolerance: float = 0.22
+    stop_tolerance: float = 0.10
+    position_tolerance: float = 0.12
+    near_tolerance: float = 0.22
     heading_tolerance: float = math.radians(10.0)

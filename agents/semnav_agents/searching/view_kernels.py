@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from semnav_agents.searching.search_map import Mask
+from semnav_agents.searching.outlines import Mask, crossed
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.kernels.compiling import kernel
 
@@ -83,7 +83,8 @@ def seconds_to_look(
 def ray_gains(
     places: FloatArray,
     wanted: Mask,
-    solid: Mask,
+    outline: Mask,
+    near: Mask,
     west: float,
     south: float,
     spacing: float,
@@ -102,9 +103,12 @@ def ray_gains(
             dx, dy = math.cos(angle), math.sin(angle)
             for i in range(1, int(view_range / spacing)):
                 away = i * spacing
-                column = round((places[k, 0] + away * dx - west) / spacing)
-                row = round((places[k, 1] + away * dy - south) / spacing)
-                if not (0 <= row < rows and 0 <= column < columns) or solid[row, column]:
+                x = (places[k, 0] + away * dx - west) / spacing
+                y = (places[k, 1] + away * dy - south) / spacing
+                column, row = round(x), round(y)
+                if not (0 <= row < rows and 0 <= column < columns):
+                    break
+                if near[row, column] and crossed(outline, x, y, dx, dy):
                     break
                 if wanted[row, column]:
                     gains[k, j] += away * spacing * 2.0 * math.pi / rays
@@ -116,7 +120,8 @@ def mark_wanted(
     eye: Pose,
     half: float,
     wanted: Mask,
-    solid: Mask,
+    outline: Mask,
+    near: Mask,
     west: float,
     south: float,
     spacing: float,
@@ -129,9 +134,12 @@ def mark_wanted(
         angle = eye[2] + half * (2.0 * j / (LOOK_RAYS - 1) - 1.0)
         dx, dy = math.cos(angle), math.sin(angle)
         for i in range(1, int(view_range / spacing)):
-            column = round((eye[0] + i * spacing * dx - west) / spacing)
-            row = round((eye[1] + i * spacing * dy - south) / spacing)
-            if not (0 <= row < rows and 0 <= column < columns) or solid[row, column]:
+            x = (eye[0] + i * spacing * dx - west) / spacing
+            y = (eye[1] + i * spacing * dy - south) / spacing
+            column, row = round(x), round(y)
+            if not (0 <= row < rows and 0 <= column < columns):
+                break
+            if near[row, column] and crossed(outline, x, y, dx, dy):
                 break
             if wanted[row, column]:
                 seen[row, column] = True

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from semnav_agents.searching.search_map import FREE, LOOKED, Mask, SearchMap
+from semnav_agents.searching.outlines import Mask
+from semnav_agents.searching.search_map import FREE, LOOKED, SearchMap
 from semnav_agents.searching.view_kernels import (
     fits,
     mark_wanted,
@@ -128,7 +129,7 @@ def best_view(
     eyes, costs = eyes[some], costs[some]
     if not len(eyes):
         return None
-    gains = ray_gains(eyes, wanted, chart.solid, *where, rays, looker.view_range)
+    gains = ray_gains(eyes, wanted, *chart.sight(), *where, rays, looker.view_range)
     sums = _window_sums(gains, window)
     turns = np.abs(np.angle(np.exp(1j * (headings + back[2] - pose[2])))) / s.turn_rate
     least = _least_gains(chart, eyes, grid.thorough)[:, None]
@@ -170,8 +171,8 @@ def shown_from(chart: SearchMap, pose: Pose, looker: Looker) -> Mask:
     """The cells still to be searched that the detector should see from a pose of the robot."""
     seen, eye = np.zeros(chart.hits.shape, np.bool_), compose(pose, looker.robot.lidar_mount)
     where = chart.grid.frame
-    wanted, solid = wanted_cells(chart), chart.solid
-    mark_wanted(eye, looker.half_angle, wanted, solid, *where, looker.view_range, seen)
+    wanted, sight = wanted_cells(chart), chart.sight()
+    mark_wanted(eye, looker.half_angle, wanted, *sight, *where, looker.view_range, seen)
     return seen
 
 

@@ -70,7 +70,7 @@ class VoicePlaces:
         """Whether the robot has stood there for a whole call, or tried too long to get there."""
         assert self._target is not None
         settings = self._chart.settings
-        there = math.dist(pose[:2], self._target[:2]) < settings.position_tolerance
+        there = math.dist(pose[:2], self._target[:2]) < settings.near_tolerance
         self._stood, self._driven = self._stood + there, self._driven + (not there)
         return self._stood > LISTENING_STEPS or self._driven > settings.long_patience
 
@@ -107,7 +107,7 @@ class VoicePlaces:
 
     def _places(self, ways: Ways, speaker: Point, voices: Sequence[HeardVoice]) -> list[Pose]:
         """Poses that face the speaker, where the body fits, away from where it has listened."""
-        chart, apart = self._chart, NEXT_CALL_DISTANCE + self._chart.settings.position_tolerance
+        chart, apart = self._chart, NEXT_CALL_DISTANCE + self._chart.settings.near_tolerance
         cells = np.argwhere(np.isfinite(ways.costs) & (chart.rooms >= 0))
         points = chart.grid.points(cells[(cells % PLACE_STEP == 0).all(axis=1)])
         for heard in (*(voice.pose[:2] for voice in voices), *self._tried):

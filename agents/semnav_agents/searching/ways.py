@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from semnav_agents.searching.search_map import SAFE, Mask, SearchMap
+from semnav_agents.searching.outlines import Mask
+from semnav_agents.searching.search_map import SAFE, SearchMap
 from semnav_env.robots import RobotSpec
 from semnav_env.world.grid.costs import costs_from
 from semnav_env.world.grid.distance import distance_to_marked

@@ -10,6 +10,7 @@ from shapely.geometry.base import BaseGeometry
 
 from semnav_env.robots import RobotSpec
 from semnav_env.world.dynamics.furniture import FurnitureMover, free_ways
+from semnav_env.world.dynamics.victim_sight import in_sight
 from semnav_env.world.maps.floor_plan import FloorPlan, Material
 from semnav_features.frames import Point
 
@@ -23,7 +24,8 @@ VICTIM_DISTANCE = 1.0
 """Largest distance of a victim's middle from a place that the robot can reach, metres."""
 
 MAX_TRIES = 5
-"""Largest number of attempts to place all victims: random draws may miss a small free place."""
+"""Largest number of attempts to place all victims: random draws may miss a small free place, or
+find one that is hidden."""
 
 
 def with_victims(
@@ -35,6 +37,9 @@ def with_victims(
     room: str | None = None,
 ) -> FloorPlan:
     """The plan with people on the floor of rooms and open areas, and no way blocked.
+
+    Each can be seen from where it may be reported. If one cannot, all are laid down again, so that
+    the draws of other plans stay as they are.
 
     Args:
         plan: the plan without victims.
@@ -51,9 +56,10 @@ def with_victims(
         return plan
     for _ in range(MAX_TRIES):
         mover = FurnitureMover(plan, robot, keep)
-        if (laid := _with_all(plan, count, mover, rng, room)) is not None:
+        laid = _with_all(plan, count, mover, rng, room)
+        if laid is not None and in_sight(laid, victims_of(laid), _main_way(laid, mover)):
             return laid
-    raise ValueError(f"{plan.name} has no free place for {count} people on the floor")
+    raise ValueError(f"{plan.name} has no free place in sight for {count} people on the floor")
 
 
 def _with_all(
@@ -62,7 +68,7 @@ def _with_all(
     """The plan with all victims; None if the first ones left no place for the others."""
     regions = (*plan.rooms, *plan.areas)
     rooms = [region.polygon for region in regions if room in (None, region.name)]
-    ways = max(free_ways(plan, mover.half_lane), key=lambda way: way.area)
+    ways = _main_way(plan, mover)
     places = [room.intersection(ways.buffer(VICTIM_DISTANCE)) for room in rooms]
     for _ in range(count):
         if not any(_lay(mover, places[k], rng) for k in rng.permutation(len(places)).tolist()):
@@ -70,6 +76,11 @@ def _with_all(
         apart = victims_of(mover.plan)[-1].buffer(VICTIM_SPACING)
         places = [place.difference(apart) for place in places]
     return mover.plan
+
+
+def _main_way(plan: FloorPlan, mover: FurnitureMover) -> Polygon:
+    """The largest region in which the middle of the robot may be."""
+    return max(free_ways(plan, mover.half_lane), key=lambda way: way.area)
 
 
 def victims_of(plan: FloorPlan) -> list[Polygon]:
