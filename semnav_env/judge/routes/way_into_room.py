@@ -62,18 +62,29 @@ def way_into(plan: FloorPlan, geodesic: Geodesic, room: Region, pose: Pose, name
 
 
 def _centred(plan: FloorPlan, way: FloatArray) -> tuple[Point, ...]:
-    """Places along a way, each moved to the middle between the walls to its left and right."""
+    """Places along a way, each moved to the middle between the walls to its left and right.
+
+    The way still leads through each door through which it led: where it would pass beside one, the
+    nearest place is moved into the doorway.
+    """
     places = np.array(paced(way))
     if len(places) < 3:
         return tuple(zip(*places.T.tolist(), strict=True))
     ahead = np.gradient(places, axis=0)
     across = np.column_stack((-ahead[:, 1], ahead[:, 0]))
     across /= np.hypot(*across.T)[:, None]
-    doors = [(*door.start, *door.end) for door in plan.doors if door.open]
-    sides = np.vstack((plan.segments, np.reshape(doors, (-1, 4))))
+    doors = [door for door in plan.doors if door.open]
+    lines = np.reshape([(*door.start, *door.end) for door in doors], (-1, 4))
+    sides = np.vstack((plan.segments, lines))
     left, right = (_side_room(sides, places, sign * across) for sign in (1.0, -1.0))
     inner = np.s_[1:-1]
     places[inner] += 0.5 * (left - right)[inner, None] * across[inner]
+    gates = shapely.linestrings(lines.reshape(-1, 2, 2))
+    leads_through = shapely.intersects(gates, shapely.LineString(way))
+    passes_beside = leads_through & ~shapely.intersects(gates, shapely.LineString(places))
+    for k in np.flatnonzero(passes_beside).tolist():
+        middle = np.array(doors[k].midpoint)
+        places[1 + int(np.hypot(*(places[inner] - middle).T).argmin())] = middle
     return tuple(zip(*places.T.tolist(), strict=True))
 
 
