@@ -10,6 +10,7 @@ from typing import Any
 from tyro.conf import Positional
 
 from semnav_agents.base import Agent, steps
+from semnav_agents.evaluation.causes import what_happened
 from semnav_agents.evaluation.drive import recognised_impossible
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
@@ -24,7 +25,7 @@ from semnav_scripts.arguments import parse_pose
 from semnav_scripts.asking import asking
 from semnav_scripts.display import needing_display
 from semnav_scripts.dynamics_options import NOTHING_MOVES, DynamicsOptions
-from semnav_scripts.outputs import check_file
+from semnav_scripts.outputs import check_file, counted
 from semnav_scripts.progress import share_driven, tracked, work_bar
 
 DEFAULT_MAP = "heidelberg_hallway"
@@ -131,7 +132,8 @@ class Arguments:
         echo = judge.mission.command.say(told.spoken)
         env.close()
         self._save(film)
-        self._report(start, echo, info, env.seconds, for_json(env.world.social()))
+        why = "" if info["is_success"] else what_happened(judge)
+        self._report(start, echo, info | {"why": why}, env.seconds, for_json(env.world.social()))
         return 0 if info["is_success"] else 1
 
     @property
@@ -229,6 +231,7 @@ class Arguments:
             "pose": start["pose"],
             "success": info["is_success"],
             "verdicts": [str(verdict) for verdict in info["verdicts"]],
+            "why": info["why"],
             "crossed_doors": list(info["crossed_doors"]),
             "collisions": info["collisions"],
             "impossible": info["impossible"],
@@ -249,8 +252,10 @@ class Arguments:
             print(KNOWS_THE_PLAN)
         print(
             f'"{echo}": {verdict} after {seconds:.1f} s and '
-            f"{info['path_length']:.1f} m, {info['collisions']} collisions"
+            f"{info['path_length']:.1f} m, {counted(info['collisions'], 'collision')}"
         )
+        if outcome["why"]:
+            print(f"why: {outcome['why']}")
         if "search" in outcome:
             print(_found(outcome["search"]))
         if outcome["impossible"]:

@@ -17,7 +17,7 @@ def cause_of(judge: Judge, metrics: Metrics, impossible: str | None) -> str:
     """
     if judge.success:
         return ""
-    words = [_what_happened(judge)]
+    words = [what_happened(judge)]
     if impossible:
         words.append(f"robot: {impossible}")
     words.append(f"{metrics.goal_distance:.1f} m from the goal")
@@ -26,7 +26,8 @@ def cause_of(judge: Judge, metrics: Metrics, impossible: str | None) -> str:
     return "; ".join(words)
 
 
-def _what_happened(judge: Judge) -> str:
+def what_happened(judge: Judge) -> str:
+    """What the robot did instead of the clause in which an episode failed."""
     goal = judge.follower.goal
     match judge.failure:
         case Verdict.WRONG_DOOR:
