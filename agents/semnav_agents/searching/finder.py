@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from semnav_agents.base import Observation
+from semnav_agents.pilot_rules import REACH_TOLERANCE
 from semnav_agents.planning.guard import GUARD_REACH, GuardedBody, safe_share
 from semnav_agents.planning.known_obstacles import JoinedObstacles, Obstacles, as_obstacles
 from semnav_agents.planning.perception import Perception
@@ -116,6 +117,7 @@ class Finder(PlanSearcher):
         task = self._current_task(observation, goal)
         seen = Percepts(people_of(observation, pose), read_voices(observation, pose))
         step = None if task is None else task.next_step(pose, seen)
+        self._pilot.tolerance = REACH_TOLERANCE if step is None else step.tolerance
         if step is None or (goal.kind is not GoalKind.STOP and step.is_idle):
             self._task = None
             doors = table(observation, "remembered_doors").astype(np.float64)

@@ -8,6 +8,7 @@ from typing import NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
+from semnav_agents.pilot_rules import REACH_TOLERANCE
 from semnav_agents.searching.search_map import SearchMap
 from semnav_agents.searching.searcher import SAME_PERSON, Searcher
 from semnav_agents.searching.views import Looker, place_before, place_towards
@@ -74,11 +75,13 @@ class FindingStep(NamedTuple):
         target: pose to drive to, odometry frame; None to stay.
         yaw_rate: of a turn on the spot, rad/s.
         careful: whether to plan with a margin alone.
+        tolerance: distance from the pose at which the robot stops, metres.
     """
 
     target: Pose | None = None
     yaw_rate: float = 0.0
     careful: bool = True
+    tolerance: float = REACH_TOLERANCE
 
     @property
     def is_idle(self) -> bool:
@@ -109,7 +112,8 @@ class SearchTask:
     def next_step(self, pose: Pose, seen: Percepts) -> FindingStep:
         """See `FindingTask`."""
         target = self._searcher.update(pose, seen.people)
-        return FindingStep(target, careful=not self._searcher.stuck)
+        careful, tolerance = not self._searcher.stuck, self._searcher.chart.settings.stop_tolerance
+        return FindingStep(target, careful=careful, tolerance=tolerance)
 
 
 class LookTask:
