@@ -64,8 +64,9 @@ def way_into(plan: FloorPlan, geodesic: Geodesic, room: Region, pose: Pose, name
 def _centred(plan: FloorPlan, way: FloatArray) -> tuple[Point, ...]:
     """Places along a way, each moved to the middle between the walls to its left and right.
 
-    The way still leads through each door through which it led: where it would pass beside one, the
-    nearest place is moved into the doorway.
+    The way still leads through each door between two corridors through which it led: where it would
+    pass beside one, the nearest place is moved into the doorway. Doors of rooms on the way are left
+    out: with them the seeds of the frozen episodes would draw others.
     """
     places = np.array(paced(way))
     if len(places) < 3:
@@ -83,9 +84,17 @@ def _centred(plan: FloorPlan, way: FloatArray) -> tuple[Point, ...]:
     leads_through = shapely.intersects(gates, shapely.LineString(way))
     passes_beside = leads_through & ~shapely.intersects(gates, shapely.LineString(places))
     for k in np.flatnonzero(passes_beside).tolist():
-        middle = np.array(doors[k].midpoint)
-        places[1 + int(np.hypot(*(places[inner] - middle).T).argmin())] = middle
+        if _parts_corridors(plan, gates[k]):
+            nearest = np.hypot(*(places[inner] - doors[k].midpoint).T).argmin()
+            places[1 + int(nearest)] = doors[k].midpoint
     return tuple(zip(*places.T.tolist(), strict=True))
+
+
+def _parts_corridors(plan: FloorPlan, gate: shapely.LineString) -> bool:
+    """Whether a door lies between two corridors."""
+    halls = [hall.polygon for hall in (*plan.corridors, *plan.intersections)]
+    near = [hall for hall in halls if hall.distance(gate.centroid) < OUTLINE_TOLERANCE]
+    return len(near) > 1
 
 
 def _is_at(room: Region, point: Point) -> bool:
