@@ -34,6 +34,7 @@ WHO_COLLECTS = (
     ("C0", "scripted agent, round 0"),
     ("C1", "learner, round 1"),
     ("C2", "learner and scripted agent, round 2"),
+    ("C3", "learner and scripted agent, round 3"),
 )
 
 
@@ -101,7 +102,7 @@ def _draw_training(
     ax: Axes, name: str, points: list[tuple[int, float]], colour: str, label: str
 ) -> None:
     """Draw one curve of one training; the bundled one alone stands in the legend."""
-    if not points:  # earlier trainings had no third round
+    if not points:  # other trainings had fewer rounds
         return
     width, shown = (2.0, label) if name == BUNDLED else (0.7, None)
     ax.plot(*zip(*points, strict=True), ".-", color=colour, linewidth=width, label=shown)

@@ -141,14 +141,14 @@ def test_one_level_is_read_and_the_others_are_named(read):
     for level, words in ((None, "several levels"), ("2", "no level '2'")):
         with pytest.raises(FloorPlanError, match=words) as error:
             read(text, level)
-        assert "0 (2 spaces), 1 (1 spaces)" in str(error.value)
+        assert "0 (2 spaces), 1 (1 space)" in str(error.value)
 
 
 def test_what_has_no_walls_is_told_and_left_out(read):
     area = way([1, 2, 3], {"indoor": "area", "level": "0"})
     plan, report = read(hall_and_rooms().replace("</osm>", area + "</osm>"))
     assert len(plan.regions) == 2
-    assert report.left_out == ("indoor=area, 1 ways",)
+    assert report.left_out == ("indoor=area, 1 way",)
 
 
 ROOM = {"indoor": "room", "level": "0"}

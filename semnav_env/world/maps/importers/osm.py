@@ -17,7 +17,7 @@ import numpy as np
 from semnav_env.world.maps.importers.documents import finite, read_xml
 from semnav_env.world.maps.importers.door_faces import LEAST_DOOR_WIDTH
 from semnav_env.world.maps.importers.drawing import MAX_DRAWING_EXTENT, MAX_SEGMENTS
-from semnav_env.world.maps.importers.imported import ImportedPlan
+from semnav_env.world.maps.importers.imported import ImportedPlan, counted
 from semnav_env.world.maps.importers.osm_ring import RingPoint, edges_of
 from semnav_env.world.maps.importers.traced_rooms import TracedRoom, plan_of_rooms
 from semnav_env.world.maps.rules import FloorPlanError
@@ -109,7 +109,7 @@ class OsmBuilding:
         """The other ways on a level, such as areas without walls and rooms that are not closed."""
         counts = Counter(tags["indoor"] for tags in self._others if float(level) in levels_of(tags))
         return tuple(
-            f"indoor={kind}, {count} ways" + ", which are not closed" * (kind in WALLED)
+            f"indoor={kind}, {counted(count, 'ways')}" + ", which are not closed" * (kind in WALLED)
             for kind, count in sorted(counts.items())
         )
 
@@ -173,7 +173,9 @@ def load_osm(path: Path, level: str | None = None) -> ImportedPlan:
         FloorPlanError: not such a file, or no such level; names what is wrong.
     """
     building = OsmBuilding(path)
-    told = ", ".join(f"{name} ({count} spaces)" for name, count in building.levels.items())
+    told = ", ".join(
+        f"{name} ({counted(count, 'spaces')})" for name, count in building.levels.items()
+    )
     level = next(iter(building.levels)) if level is None and len(building.levels) == 1 else level
     if level is None or level not in building.levels:
         said = "has several levels" if level is None else f"has no level {shown(level)}"
