@@ -161,6 +161,7 @@ CORNERS = [node(k, place) for k, place in enumerate([(0.0, 0.0), (4.0, 0.0), (4.
         ("<osm>", ("no XML", "<node>")),
         (building(), ("no room and no corridor", "Simple Indoor Tagging")),
         ("<!DOCTYPE osm><osm/>", ("document type",)),
+        (building(*CORNERS, way([0, 1, 2], {"indoor": "room"})), ("no room", "on a level")),
         (building(*CORNERS, way([0, 1, 7], ROOM)), ("node 7", "missing")),
         (building(*CORNERS, "<node id='9' lat='nan' lon='1'/>"), ("node 9", "not finite")),
         (building(*CORNERS, "<node id='9' lon='1'/>"), ("node 9",)),

@@ -88,12 +88,13 @@ class OsmBuilding:
         self._others: list[Tags] = []
         for way in root.iter("way"):
             tags, nodes = tags_of(way), _nodes_of(way)
-            if tags.get("indoor") in WALLED and len(nodes) > 3 and nodes[0] == nodes[-1]:
+            is_ring = len(nodes) > 3 and nodes[0] == nodes[-1]
+            if tags.get("indoor") in WALLED and is_ring and levels_of(tags):
                 self.spaces.append(OsmSpace(tags, nodes[:-1]))
             elif "indoor" in tags:
                 self._others.append(tags)
         if not self.spaces:
-            raise FloorPlanError(f"{path}: holds no room and no corridor; {WHAT_IT_IS}")
+            raise FloorPlanError(f"{path}: holds no room and no corridor on a level; {WHAT_IT_IS}")
 
     @cached_property
     def levels(self) -> Mapping[str, int]:
