@@ -36,7 +36,7 @@ MAX_LANDMARK_OFFSET = 0.3
 MIN_PARALLEL_COSINE = math.cos(math.radians(10.0))
 """Cosine of the largest angle between two sightings of the same wall."""
 
-WALL_DEVIATION = 0.05
+WALL_DEVIATION = 0.01
 """Standard deviation of the distance between two sightings of a metre of wall, metres."""
 
 OUTLIER_DISTANCE = 0.1
