@@ -37,7 +37,9 @@ MIN_PARALLEL_COSINE = math.cos(math.radians(10.0))
 """Cosine of the largest angle between two sightings of the same wall."""
 
 WALL_DEVIATION = 0.01
-"""Standard deviation of the distance between two sightings of a metre of wall, metres."""
+"""Standard deviation of the distance between two sightings of a metre of wall, metres. Along drives
+in generated offices it is 0.003 to 0.004 (sightings two thirds of a second apart); rough walls and
+what stands before them make it more."""
 
 OUTLIER_DISTANCE = 0.1
 """Distance at which the weight of a sighting has fallen to one half, metres."""
