@@ -13,7 +13,6 @@ from types import MappingProxyType
 from semnav_env.language.rooms import GERMAN_LETTERS, plain_name, spoken_names, without_accents
 from semnav_env.language.words import pieces
 
-
 MOST_ASKED = 4
 """The most rooms of one kind for which the robot asks which is meant: two in a question."""
 
