@@ -75,7 +75,7 @@ class LearnedInterpreter:
             return self._stop(text)
         spoken = language_of_text(text, self.language)
         if command := read_canonical(text, spoken):
-            check_rooms(command, text, self.rooms)
+            check_rooms(command, text, self.rooms, spoken)
             return Interpretation(text, command, spoken, "canonical words")
         if self.language is not None and (error := refused_language(text, spoken)):
             raise error
