@@ -271,7 +271,7 @@ class Arguments:
         tell, verdicts = spoken.tell, ["done"] if outcome["success"] else outcome["verdicts"]
         pose = ",".join(f"{value:.2f}" for value in outcome["pose"])
         yield tell("from {pose} in {plan}", pose=pose, plan=outcome["floor_plan"])
-        yield from outcome.get("corrected", ())
+        yield from outcome.get("corrections", ())
         if "search" in outcome and self.agent is None:
             yield tell(KNOWS_THE_PLAN)
         touches = outcome["collisions"]

@@ -17,6 +17,10 @@ class GroundingError(ValueError):
         """A copy of the error in the words of a language."""
         return type(self)(in_words_of(language, self.reason))
 
+    def say(self, language: Language, form: str = "") -> str:
+        """The message in the words of a language, as a part of another one."""
+        return str(self.in_words_of(language))
+
     @property
     def reason(self) -> str:
         """The message, which may be a text that says itself in other languages."""
