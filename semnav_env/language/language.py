@@ -93,5 +93,6 @@ class _SpokenPart:
         if isinstance(self._value, Real):
             return format(float(self._value), form or "g").replace(".", self._language.decimal)
         is_plain = not hasattr(self._value, "say")
-        said: str = self._value if is_plain else self._value.say(self._language, form)
+        forms = (form,) if form else ()  # a command has none
+        said: str = self._value if is_plain else self._value.say(self._language, *forms)
         return said.removeprefix("the ") if form == "bare" else said
