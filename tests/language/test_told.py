@@ -94,7 +94,14 @@ def test_a_word_that_was_corrected_is_told(
 
 @pytest.mark.parametrize(
     "text",
-    ["geh zur Küche", "go to the kitchen", "die zweite Tür links", "Linksdrehung", "geh zum Bad"],
+    [
+        "geh zur Küche",
+        "go to my library",
+        "back to library",
+        "die zweite Tür links",
+        "Linksdrehung",
+        "geh zum Bad",
+    ],
 )
 def test_where_nothing_was_corrected_nothing_is_told(text: str) -> None:
-    assert corrections(text, ("Küche", "Bad")) == ()
+    assert corrections(text, ("Küche", "Bad", "Library")) == ()

@@ -124,6 +124,8 @@ def misspelt_room(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[
         said = "".join(words[at:stop])
         if len(said) < MIN_MISSPELT - 1 or all(_is_known(w, lexica) for w in words[at:stop]):
             continue
+        if any(tuple(words[k:stop]) in names for k in range(at + 1, stop)):
+            continue  # "my library" has no slip
         most = 2 if len(said) >= TWO_SLIPS else 1
         for name, plain in names.items():
             whole = "".join(name)
