@@ -12,7 +12,7 @@ CROSS = ("--map", "office_cross", "--pose=1.3,9.1,0")
 @pytest.mark.parametrize(
     ("text", "lines"),
     [
-        ("halt an", ["von 1.30,9.10,0.00 in office_cross", '"halt an": fertig nach ']),
+        ("bleib stehen", ["von 1.30,9.10,0.00 in office_cross", '"halt an": fertig nach ']),
         ("stop", ["from 1.30,9.10,0.00 in office_cross", '"stop": done after ']),
     ],
 )
