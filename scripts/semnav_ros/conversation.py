@@ -11,6 +11,8 @@ from semnav_env.language import (
     encode,
     parse,
 )
+from semnav_env.language.languages import language_of
+from semnav_env.language.vocabulary.recognition import language_of_text
 
 STOP = Command((Stop(),))
 """What a call to stop means."""
@@ -26,12 +28,14 @@ class Conversation:
         text: what was heard last.
         question: what is open; None if nothing is.
         said: the open question, or why the last text was refused; empty if there is neither.
+        spoken: language of the last command.
     """
 
     def __init__(self, language: str | None = None) -> None:
         self._language = language
         self.text = self.said = ""
         self.question: Question | None = None
+        self.spoken = language_of(language or "en")
         self._parse("stop")  # loads what hears a stop, before anybody calls
 
     def hear(self, text: str) -> Command | None:
@@ -48,6 +52,7 @@ class Conversation:
         except ValueError as error:  # of `encode`: a room, to which nobody has told the way
             self.said = str(error)
         else:
+            self.spoken = question.language if question else language_of_text(text, self._language)
             return command
         return None
 

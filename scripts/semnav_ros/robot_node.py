@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from semnav_agents.registry import AgentSource
 from semnav_env.language import Command
+from semnav_env.language.told import in_words_of
 from semnav_env.mind.belief import Belief
 from semnav_env.mind.grounding import GoalKind
 from semnav_env.robots import RobotSpec, robot_spec
@@ -289,6 +290,7 @@ class RobotNode:
     def _status(self, problem: str) -> NodeStatus:
         belief = None if self._seen is None else self._seen[0]
         clause, reasons = (0, ()) if belief is None else (belief.clause, belief.reasons)
+        reasons = tuple(in_words_of(self._talk.spoken, reason) for reason in reasons)
         counts = replace(self.counts)
         return NodeStatus(
             self._phase, problem, self._talk.text, self._clauses, clause, reasons, counts

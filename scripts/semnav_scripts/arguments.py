@@ -8,9 +8,11 @@ import re
 from collections.abc import Sequence
 from contextlib import redirect_stderr
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Optional, Protocol, TypeAlias, cast
+from types import NoneType
+from typing import TYPE_CHECKING, Any, Optional, Protocol, TypeAlias, cast, get_args
 
 import tyro
+from tyro.constructors import ConstructorRegistry, PrimitiveConstructorSpec, PrimitiveTypeInfo
 
 from semnav_scripts.terminal_text import as_utf8
 
@@ -19,6 +21,28 @@ if TYPE_CHECKING:  # `semnav doctor` must start without the compiled kernels
 
 OptionalText: TypeAlias = Optional[str]  # noqa: UP045 - for `str | None` tyro imports typeguard
 """A text or None as the type of an option; this form saves 0.05 s at the start."""
+
+READERS = ConstructorRegistry()
+"""How tyro reads types of options, where not in its own way."""
+
+
+@READERS.primitive_rule
+def _read_optional(type_info: PrimitiveTypeInfo) -> PrimitiveConstructorSpec[Any] | None:
+    """Read `X | None` as X: an option that may be absent is left out, and nobody types "None"."""
+    kinds = set(get_args(type_info.type))
+    if len(kinds) != 2 or NoneType not in kinds:
+        return None
+    (kind,) = kinds - {NoneType}
+    spec = ConstructorRegistry.get_primitive_spec(PrimitiveTypeInfo.make(kind, type_info.markers))
+    if not isinstance(spec, PrimitiveConstructorSpec):
+        return None
+    return replace(
+        spec,
+        is_instance=lambda value: value is None or spec.is_instance(value),
+        str_from_instance=lambda value: (
+            ["None"] if value is None else spec.str_from_instance(value)
+        ),
+    )
 
 
 class Runnable(Protocol):
@@ -48,7 +72,9 @@ def parse(arguments: Any, words: Sequence[str], prog: str) -> Runnable:
     box = io.StringIO()
     try:
         with redirect_stderr(box):
-            return _with_said_command(tyro.cli(arguments, args=list(words), prog=prog))
+            return _with_said_command(
+                tyro.cli(arguments, args=list(words), prog=prog, registry=READERS)
+            )
     except SystemExit as stop:
         if not stop.code:
             raise HelpShown from None

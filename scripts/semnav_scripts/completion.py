@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 import tyro
 from tyro.conf import Positional, subcommand
 
+from semnav_scripts.arguments import READERS
 from semnav_scripts.dispatch import CommandTable
 from semnav_scripts.main import SEMNAV
 
@@ -36,7 +37,7 @@ class Arguments:
         """Print the script."""
         words = ["--tyro-write-completion", self.shell, "-"]
         with suppress(SystemExit):  # with which tyro ends when it has printed
-            tyro.cli(_all_commands(SEMNAV), args=words, prog=SEMNAV.prog)
+            tyro.cli(_all_commands(SEMNAV), args=words, prog=SEMNAV.prog, registry=READERS)
         if self.shell == "bash":
             print(FILES_TOO)
         return 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -14,9 +15,10 @@ from semnav_agents.evaluation.causes import what_happened
 from semnav_agents.evaluation.drive import recognised_impossible
 from semnav_agents.registry import make_agent
 from semnav_env.env import SemNavEnv
-from semnav_env.language import SearchHouse, parse
+from semnav_env.language import SearchHouse, corrections, parse
 from semnav_env.language.finding_clauses import FindingClause
 from semnav_env.language.language import Language
+from semnav_env.language.told import Told, in_words_of
 from semnav_env.language.vocabulary.recognition import language_of_text
 from semnav_env.rendering.film import STEPS_PER_FRAME, Film
 from semnav_env.world.dynamics.social import for_json
@@ -25,7 +27,7 @@ from semnav_scripts.arguments import parse_pose
 from semnav_scripts.asking import asking
 from semnav_scripts.display import needing_display
 from semnav_scripts.dynamics_options import NOTHING_MOVES, DynamicsOptions
-from semnav_scripts.outputs import check_file, counted
+from semnav_scripts.outputs import check_file
 from semnav_scripts.progress import share_driven, tracked, work_bar
 
 DEFAULT_MAP = "heidelberg_hallway"
@@ -36,6 +38,16 @@ STEPS_PER_SEARCH_FRAME = 60
 
 KNOWS_THE_PLAN = "the agent knows the floor plan; --agent explorer searches a house without it"
 """Remark on the default agent of a search of a house."""
+
+ENDED = '"{echo}": {verdict} after {seconds:.1f} s and {metres:.1f} m, {count} collisions'
+ENDED_TOUCHED_ONCE = ENDED.removesuffix("s")
+"""What is told at the end."""
+
+FOUND = (
+    "{found} of {victims} people found, {false_reports} false reports, "
+    "least covered room {share:.0f} %"
+)
+"""The outcome of a search in one line."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +63,7 @@ class _DemoTask:
         usual_agent: who drives if nobody is named.
         limits: of the episode, as arguments of the environment; its own if empty.
         infeasible: whether the right answer is to say that the command is impossible.
+        corrections: a line for each word of the command that was corrected into another.
     """
 
     plan: FloorPlan
@@ -61,6 +74,7 @@ class _DemoTask:
     usual_agent: str = "scripted"
     limits: dict[str, Any] = field(default_factory=dict)
     infeasible: bool = False
+    corrections: tuple[Told, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -132,8 +146,9 @@ class Arguments:
         echo = judge.mission.command.say(told.spoken)
         env.close()
         self._save(film)
-        why = "" if info["is_success"] else what_happened(judge)
-        self._report(start, echo, info | {"why": why}, env.seconds, for_json(env.world.social()))
+        info["why"] = "" if info["is_success"] else what_happened(judge)
+        info["corrections"] = [each.say(told.spoken) for each in told.corrections]
+        self._report(start, echo, told.spoken, info, env.seconds, for_json(env.world.social()))
         return 0 if info["is_success"] else 1
 
     @property
@@ -153,7 +168,8 @@ class Arguments:
         searches = any(isinstance(each, FindingClause) for each in command.clauses)
         searcher = "searcher" if command.clauses == (SearchHouse(),) else "finder"
         usual = searcher if searches else "scripted"
-        return _DemoTask(plan, spoken, options, self.seed or 0, searches, usual)
+        task = _DemoTask(plan, spoken, options, self.seed or 0, searches, usual)
+        return replace(task, corrections=corrections(self.command, plan.room_names))
 
     def _frozen(self, name: str) -> _DemoTask:
         """The task of a frozen episode, with the noise and the limit of `evaluate`."""
@@ -220,6 +236,7 @@ class Arguments:
         self,
         start: dict[str, Any],
         echo: str,
+        spoken: Language,
         info: dict[str, Any],
         seconds: float,
         social: dict[str, Any],
@@ -227,14 +244,15 @@ class Arguments:
         outcome = {
             **({"episode": self.episode} if self.episode else {}),
             "command": start["command"],
+            **({"corrections": info["corrections"]} if info["corrections"] else {}),
             "floor_plan": start["floor_plan"],
             "pose": start["pose"],
             "success": info["is_success"],
             "verdicts": [str(verdict) for verdict in info["verdicts"]],
-            "why": info["why"],
+            "why": in_words_of(spoken, info["why"]),
             "crossed_doors": list(info["crossed_doors"]),
             "collisions": info["collisions"],
-            "impossible": info["impossible"],
+            "impossible": info["impossible"] and in_words_of(spoken, info["impossible"]),
             "seconds": round(seconds, 2),
             "path_length": round(info["path_length"], 3),
             "route_length": round(info["route_length"], 3),
@@ -245,29 +263,32 @@ class Arguments:
         if self.json:
             print(json.dumps(outcome))
             return
-        verdict = "done" if info["is_success"] else " / ".join(outcome["verdicts"])
-        pose = ",".join(f"{value:.2f}" for value in start["pose"])
-        print(f"from {pose} in {start['floor_plan']}")
+        for line in self._lines(outcome, echo, spoken):
+            print(line)
+
+    def _lines(self, outcome: dict[str, Any], echo: str, spoken: Language) -> Iterator[str]:
+        """What is told of an outcome, in the language of the command."""
+        tell, verdicts = spoken.tell, ["done"] if outcome["success"] else outcome["verdicts"]
+        pose = ",".join(f"{value:.2f}" for value in outcome["pose"])
+        yield tell("from {pose} in {plan}", pose=pose, plan=outcome["floor_plan"])
+        yield from outcome.get("corrections", ())
         if "search" in outcome and self.agent is None:
-            print(KNOWS_THE_PLAN)
-        print(
-            f'"{echo}": {verdict} after {seconds:.1f} s and '
-            f"{info['path_length']:.1f} m, {counted(info['collisions'], 'collision')}"
+            yield tell(KNOWS_THE_PLAN)
+        touches = outcome["collisions"]
+        yield tell(
+            ENDED_TOUCHED_ONCE if touches == 1 else ENDED,
+            echo=echo,
+            verdict=" / ".join(map(tell, verdicts)),
+            seconds=outcome["seconds"],
+            metres=outcome["path_length"],
+            count=touches,
         )
         if outcome["why"]:
-            print(f"why: {outcome['why']}")
+            yield tell("why: {why}", why=outcome["why"])
         if "search" in outcome:
-            print(_found(outcome["search"]))
+            found = outcome["search"]
+            yield tell(FOUND, **found | {"share": 100 * found["least_coverage"]})
         if outcome["impossible"]:
-            print(f"the robot found the command impossible: {outcome['impossible']}")
+            yield tell("the robot found the command impossible: {why}", why=outcome["impossible"])
         for path in outcome["files"]:
-            print(f"wrote {path}")
-
-
-def _found(search: dict[str, Any]) -> str:
-    """The outcome of a search in one line."""
-    return (
-        f"{search['found']} of {search['victims']} people found, "
-        f"{search['false_reports']} false reports, "
-        f"least covered room {100 * search['least_coverage']:.0f} %"
-    )
+            yield tell("wrote {path}", path=path)

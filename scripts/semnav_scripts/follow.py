@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import islice
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,9 @@ from typing import Any
 from tyro.conf import OmitArgPrefixes, Positional
 
 from semnav_env.language import Command
+from semnav_env.language.language import Language
+from semnav_env.language.told import in_words_of
+from semnav_env.language.vocabulary.recognition import language_of_text
 from semnav_env.mind.belief import Belief
 from semnav_env.mind.belief.log_following import PoseChoice, follow_log
 from semnav_features import ExtractorSettings
@@ -151,6 +155,11 @@ class Arguments:
                 writers.append(open_files.enter_context(mcap_writer(self.mcap)))
             yield writers
 
+    @cached_property
+    def _spoken(self) -> Language:
+        """The language of the command."""
+        return language_of_text(self.command, self.language)
+
     def _line(self, record: LogRecord, belief: Belief, command: Command) -> str:
         clauses = command.clauses
         over = belief.clause >= len(clauses)
@@ -159,10 +168,10 @@ class Arguments:
             "stamp": record.stamp,
             "pose": [round(value, 3) for value in belief.pose],
             "clause": belief.clause + 1,
-            "text": "" if over else str(clauses[belief.clause]),
+            "text": "" if over else clauses[belief.clause].say(self._spoken),
             "goal": belief.goal.kind.name.lower(),
             "goal_pose": [round(value, 3) for value in belief.goal.pose],
-            "reasons": list(belief.reasons),
+            "reasons": [in_words_of(self._spoken, reason) for reason in belief.reasons],
         }
         if self.json:
             return json.dumps(said)
@@ -170,7 +179,7 @@ class Arguments:
         at = f"scan {record.line:>6}  at {x:7.2f} {y:7.2f}"
         if over:
             return f"{at}  all clauses done"
-        return f"{at}  clause {said['clause']}  {said['goal']:<5} {'; '.join(belief.reasons)}"
+        return f"{at}  clause {said['clause']}  {said['goal']:<5} {'; '.join(said['reasons'])}"
 
 
 _WATCHED: dict[PoseChoice | None, tuple[PoseSource, ...]] = {

@@ -11,13 +11,12 @@ from tyro.conf import Positional
 from semnav_env.judge.goals import goals_in_turn
 from semnav_env.language import (
     AmbiguousCommandError,
-    Clause,
     Command,
     CommandError,
-    GoToDoor,
+    corrections,
     parse,
 )
-from semnav_env.language.language import Language
+from semnav_env.language.told import in_words_of
 from semnav_env.language.vocabulary.recognition import language_of_text
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.mind.grounding.goal import door_of
@@ -69,25 +68,19 @@ class Arguments:
         rows = [
             {
                 "kind": goal.kind.name.lower(),
-                "understood": _in_words(goal.because, command.clauses[clause], spoken),
+                "understood": in_words_of(spoken, goal.because),
                 "pose": [round(value, 3) for value in goal.pose],
                 "door": door.name if (door := door_of(goal)) is not None else None,
             }
-            for clause, goal in goals
+            for _, goal in goals
         ]
         if self.json:
             print(json.dumps(rows))
         else:
+            for each in corrections(self.command, floor_plan.room_names):
+                print(each.say(spoken))
             print("\n".join([TABLE_HEADINGS, *map(_line, rows)]))
         return 0
-
-
-def _in_words(because: str, clause: Clause, spoken: Language) -> str:
-    """The reason of a goal in the language of the command; goals themselves use English only."""
-    if spoken.code == "en":
-        return because
-    unsaid = isinstance(clause, GoToDoor) and clause.by_default
-    return clause.say(spoken) + (spoken.say("by_default") if unsaid else "")
 
 
 def _line(row: dict[str, Any]) -> str:

@@ -93,5 +93,6 @@ class Arguments:
         """The command to type next, and what it is for."""
         file = quote(str(self.out))
         if faults or not plan.corridors:
-            return f"`semnav serve`, and drop {file} there: draw what is missing, and save it"
+            task = "mend the faults" if faults else "draw the corridors, which are missing"
+            return f"`semnav serve`, and drop {file} there: {task}, and save it"
         return f'`semnav demo "go down the hallway" --map {file}`'

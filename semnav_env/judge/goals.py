@@ -8,6 +8,7 @@ import shapely
 
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.language import Command
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.follower import Follower
 from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
@@ -69,7 +70,7 @@ def goals_in_turn(
             raise
         from semnav_env.mind.grounding.clause_error import ClauseError  # few commands need it
 
-        raise ClauseError(command, follower.active, str(error)) from None
+        raise ClauseError(command, follower.active, error.reason) from None
 
 
 def check_grounded(follower: Follower) -> None:
@@ -81,7 +82,9 @@ def check_grounded(follower: Follower) -> None:
     if follower.impossible is not None:
         raise GroundingError(follower.impossible)
     if isinstance(follower.goal, SeekGoal):
-        raise GroundingError(f"{follower.goal.what}: the floor plan shows none there")
+        raise GroundingError(
+            Told("{what}: the floor plan shows none there", what=follower.goal.what)
+        )
 
 
 def _check_inside(goal: Goal, floor_plan: FloorPlan) -> None:
@@ -95,7 +98,10 @@ def _check_inside(goal: Goal, floor_plan: FloorPlan) -> None:
     if isinstance(goal, ReachGoal):
         away = floor_plan.boundary.distance(shapely.Point(goal.pose[:2]))
         if away > goal.distance_tolerance:
-            raise GroundingError(f"{goal.because}: that leads out of {floor_plan.name}")
+            leads_out = Told(
+                "{what}: that leads out of {plan}", what=goal.because, plan=floor_plan.name
+            )
+            raise GroundingError(leads_out)
 
 
 def place(goal: Goal) -> Point:

@@ -59,6 +59,7 @@ if TYPE_CHECKING:
     from semnav_env.language.question import AmbiguousCommandError, Ask, Question
     from semnav_env.language.rewording import paraphrases
     from semnav_env.language.sampling import sample_clause, sample_command
+    from semnav_env.language.translating.corrections import corrections
     from semnav_env.language.translating.interpreter import LearnedInterpreter, correct, parse
 
 __all__ = [
@@ -112,6 +113,7 @@ __all__ = [
     "Turning",
     "Unit",
     "correct",
+    "corrections",
     "decode",
     "encode",
     "from_program",
@@ -136,6 +138,7 @@ __getattr__ = lazy_names(
         ".question": ("AmbiguousCommandError", "Ask", "Question"),
         ".rewording": ("paraphrases",),
         ".sampling": ("sample_clause", "sample_command"),
+        ".translating.corrections": ("corrections",),
         ".translating.interpreter": ("LearnedInterpreter", "correct", "parse"),
     },
 )

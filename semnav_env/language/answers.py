@@ -51,7 +51,8 @@ def choice_of(
     ]
     if len(exact) == 1:
         return exact[0]
-    labels = PhraseTable(_phrases_by_label(choices, language)).labels(words)
+    table = PhraseTable(_phrases_by_label(choices, language))
+    labels = table.labels(words) or table.labels([word.replace("'", "") for word in words])
     if not labels:
         return None
     first, second = _votes(labels)

@@ -23,6 +23,7 @@ class CommandError(ValueError):
         position: index in `text` of the first wrong character; None if the whole text is wrong.
         length: number of wrong characters.
         hint: advice on what to say instead.
+        place: the word for a character in the language of the speaker.
     """
 
     problem: str
@@ -30,6 +31,7 @@ class CommandError(ValueError):
     position: int | None
     length: int
     hint: str | None
+    place: str
 
     def __init__(
         self,
@@ -38,18 +40,20 @@ class CommandError(ValueError):
         position: int | None = None,
         length: int = 1,
         hint: str | None = None,
+        place: str = "character",
     ) -> None:
-        super().__init__(problem, text, position, length, hint)
+        super().__init__(problem, text, position, length, hint, place)
         self.problem = problem
         self.text = text
         self.position = position
         self.length = length
         self.hint = hint
+        self.place = place
 
     @property
     def summary(self) -> str:
         """The problem and the hint in one line."""
-        where = "" if self.position is None else f" (character {self.position + 1})"
+        where = "" if self.position is None else f" ({self.place} {self.position + 1})"
         return "; ".join(filter(None, (self.problem + where, self.hint)))
 
     def __str__(self) -> str:

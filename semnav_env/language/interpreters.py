@@ -84,7 +84,7 @@ class ModelInterpreter:
         spoken = language_of(self.language)
         normalise(text, spoken)
         command = _program(self.ask(text), text)
-        check_rooms(command, text, self.rooms)
+        check_rooms(command, text, self.rooms, spoken)
         return Interpretation(text, command, spoken, "model")
 
 

@@ -29,6 +29,7 @@ class Language:
             second of two choices, for sides and approaches, and words that may stand beside.
         wordings: other format strings for these phrases; those of "1" are other words for the
             first, and those of "command" frame a whole command.
+        told: format strings of what a robot tells, by those in English; see `Told`.
     """
 
     name: str
@@ -43,6 +44,7 @@ class Language:
     phrases: dict[str, str]
     answers: dict[str, tuple[str, ...]]
     wordings: dict[str, tuple[str, ...]]
+    told: dict[str, str]
 
     def folded(self, words: str) -> str:
         """Words in the spelling in which they are read."""
@@ -65,13 +67,21 @@ class Language:
         """
         return self.fill(self.phrases.get(f"{phrase}:{form}") or self.phrases[phrase], parts)
 
+    def tell(self, template: str, form: str = "", **parts: Any) -> str:
+        """What a robot tells, by its format string in English, which stands for an unknown one."""
+        known = self.told.get(f"{template}:{form}") or self.told.get(template, template)
+        return self.fill(known, parts)
+
     def fill(self, template: str, parts: dict[str, Any]) -> str:
         """Fill parts into a format string, each in the form that it asks for."""
         return template.format(**{key: _SpokenPart(part, self) for key, part in parts.items()})
 
 
 class _SpokenPart:
-    """A part of a phrase; the format specification names the grammatical form that it takes."""
+    """A part of a phrase; the format specification names the grammatical form that it takes.
+
+    That of a number is its format, and "bare" is without an English article.
+    """
 
     def __init__(self, value: Any, language: Language) -> None:
         self._value = value
@@ -80,9 +90,9 @@ class _SpokenPart:
     def __format__(self, form: str) -> str:
         if isinstance(self._value, StrEnum):
             return self._language.say(self._value)
-        if isinstance(self._value, str):
-            return self._value
         if isinstance(self._value, Real):
-            return self._language.number_text(float(self._value))
-        said: str = self._value.say(self._language, form)
-        return said
+            return format(float(self._value), form or "g").replace(".", self._language.decimal)
+        is_plain = not hasattr(self._value, "say")
+        forms = (form,) if form else ()  # a command has none
+        said: str = self._value if is_plain else self._value.say(self._language, *forms)
+        return said.removeprefix("the ") if form == "bare" else said

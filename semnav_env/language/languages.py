@@ -30,6 +30,7 @@ def load(name: str) -> Language:
         phrases=table["phrases"],
         answers={key: tuple(words) for key, words in table["answers"].items()},
         wordings={key: tuple(words) for key, words in table["wordings"].items()},
+        told=table.get("told", {}),
     )
 
 

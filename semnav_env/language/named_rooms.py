@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from semnav_env.language.command import Command, room_of
 from semnav_env.language.errors import CommandError
+from semnav_env.language.language import Language
 from semnav_env.language.rooms import plain_name
 
 
@@ -16,12 +17,15 @@ def missing_room(command: Command, rooms: Sequence[str]) -> str | None:
     return next((name for name in named if known and name not in known), None)
 
 
-def check_rooms(command: Command, text: str, rooms: Sequence[str]) -> None:
+def check_rooms(command: Command, text: str, rooms: Sequence[str], language: Language) -> None:
     """Refuse a command with a room that is not among `rooms`; without `rooms` take any.
+
+    The error is in the words of `language`.
 
     Raises:
         CommandError: there is no such room; the message lists the rooms.
     """
     name = missing_room(command, rooms)
     if name is not None:
-        raise CommandError(f'there is no room "{name}"; there are: {", ".join(rooms)}', text[:200])
+        problem = 'there is no room "{name}"; there are: {rooms}'
+        raise CommandError(language.tell(problem, name=name, rooms=", ".join(rooms)), text[:200])

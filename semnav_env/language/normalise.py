@@ -85,7 +85,8 @@ def normalise(original: str, language: Language) -> NormalisedText:
 def empty_command(language: Language) -> CommandError:
     """The error for a text without words."""
     example = GoToDoor(DoorReference(2, Side.RIGHT)).say(language)
-    return CommandError("the command is empty", hint=f'for example: "{example}"')
+    hint = language.tell('for example: "{command}"', command=example)
+    return CommandError(language.tell("the command is empty"), hint=hint)
 
 
 def _check_words(normalised: NormalisedText) -> None:

@@ -8,13 +8,13 @@ from functools import cached_property
 from typing import Any, TypeAlias
 
 from semnav_env.language.answers import REJECTED, Choice, choice_of
-from semnav_env.language.clauses import Approach, Clause, IfThere, Stop, Turning
+from semnav_env.language.clauses import Approach, Clause, GoToRoom, IfThere, Stop, Turning
 from semnav_env.language.command import Command
 from semnav_env.language.declarations import Spoken, field_names, is_ordinal
 from semnav_env.language.errors import CommandError
 from semnav_env.language.language import Language
 from semnav_env.language.phrase_table import plain_words
-from semnav_env.language.references import ENTRY, Side
+from semnav_env.language.references import ENTRY, RoomReference, Side
 from semnav_env.language.stops import is_stop
 
 Ask: TypeAlias = Callable[[str], str]
@@ -117,8 +117,8 @@ class Question:
             return self._by_command(text)
         if choice != REJECTED:
             return self.readings[choice]
-        if len(self.readings) > 1 and not self.names_both:
-            raise AmbiguousCommandError(text, replace(self, readings=self.readings[1:]))
+        if others := self.readings[2 if self.names_both else 1 :]:
+            raise AmbiguousCommandError(text, replace(self, readings=others))
         raise CommandError(self.language.say("none_meant"), text)
 
     def _by_command(self, text: str) -> Command:
@@ -238,6 +238,8 @@ def _open_parts(first: Any, second: Any) -> tuple[Any, Any]:
     if len(apart) != 1 or ENTRY in (getattr(each, apart[0]) for each in (first, second)):
         return first, second  # "the door you came in by" is no ordinal
     parts = getattr(first, apart[0]), getattr(second, apart[0])
+    if isinstance(first, GoToRoom) and apart[0] == "name":
+        return RoomReference(parts[0]), RoomReference(parts[1])
     if all(isinstance(part, Spoken) for part in parts):
         return _open_parts(*parts)
     by_itself = apart[0] == "ordinal" or all(isinstance(p, SAID_ALONE) for p in parts)

@@ -17,6 +17,9 @@ from semnav_env.language.sampling import check_generator
 TEXTS_PER_PARAPHRASE = 20
 """Texts that are drawn for each paraphrase wanted, before the command is taken to have no more."""
 
+BEFORE_NOUNS = ("det", "a", "ordinal")
+"""Classes of words with a noun behind them: "the bend" and "3rd turn" name no action."""
+
 
 @dataclass(frozen=True, eq=False)
 class _VariedLanguage(Language):
@@ -61,11 +64,14 @@ class _VariedLanguage(Language):
 
         spoken = language_of(self.code)
         words, lexicon = plain_words(text, spoken), lexicon_of(spoken)
-        others = ("side", "noun")  # "left" and "bend" are verbs, too
-        places = (
-            k for k in range(len(words)) if not any(lexicon.find(words, k, o) for o in others)
+        matches = [tuple(lexicon.matches(words, at)) for at in range(len(words))]
+        nouns = {stop for found in matches for kind, _, stop in found if kind in BEFORE_NOUNS}
+        kinds = (
+            kind
+            for at, found in enumerate(matches)
+            if at not in nouns and not lexicon.find(words, at, "side")  # "left" is a verb, too
+            for kind, _, _ in found
         )
-        kinds = (kind for at in places for kind, _, _ in lexicon.matches(words, at))
         return any(kind in ("verb", "around", "around alone") for kind in kinds)
 
     def _any_of(self, usual: str, key: str) -> str:

@@ -6,6 +6,8 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from semnav_env.language.languages import language_of
+from semnav_env.language.told import in_words_of
 from semnav_env.rendering import palette
 from semnav_env.rendering.camera import Viewport
 from semnav_env.rendering.canvas import Canvas
@@ -134,9 +136,9 @@ def _nearby(frame: Frame) -> range:
 def _entry(inner: Column, frame: Frame, index: int) -> PanelEntry:
     active = index == frame.active_clause
     notes: tuple[str, ...] = ()
-    is_english = frame.language == "en"  # as the reasons are
-    if active and is_english and frame.goal is not None and frame.goal.because:
-        notes = inner.wrapped(frame.goal.because, 11.0, most=4)
+    if active and frame.goal is not None and frame.goal.because:
+        told = in_words_of(language_of(frame.language), frame.goal.because)
+        notes = inner.wrapped(told, 11.0, most=4)
     return PanelEntry(index, inner.wrapped(frame.command[index], 13.5, active), notes)
 
 

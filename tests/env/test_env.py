@@ -167,6 +167,11 @@ def test_actions_out_of_range_are_clipped() -> None:
         (START | {"pose": (-2.5, -0.3, 90.0)}, ValueError, "radians"),
         ({"command": "go to room east south 2"} | CROSS, ValueError, "out: .*no open door leads"),
         (
+            {"command": "fahr in Raum east south 2"} | CROSS,
+            ValueError,
+            'kein Start .*"fahr in Raum .*dorthin führt keine offene Tür: die Tür von .* ist zu',
+        ),
+        (
             {"command": "take the twentieth door"} | CROSS,
             ValueError,
             "out: no twentieth door: .* after",

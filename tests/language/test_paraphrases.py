@@ -72,3 +72,11 @@ def test_things_of_another_kind_are_refused_by_what_was_meant() -> None:
         paraphrases(OFFICE, 5, 3)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="rng is 5; give a generator"):
         sample_command(5)  # type: ignore[arg-type]
+
+
+def test_turn_is_a_verb_where_no_article_or_ordinal_comes_before_it() -> None:
+    """The word is a noun, too: "left at the 3rd turn" has no verb."""
+    command = read("if you see the first door, turn left at the third turning")
+    texts = paraphrases(command, np.random.default_rng(0), 200)
+    assert any(re.search(r"[,;.] turn left at", text) for text in texts)
+    assert not any(re.search(r"[,;.] left at the \w+ (turning|opening)", text) for text in texts)

@@ -18,7 +18,7 @@ from semnav_env.language import (
     sample_command,
 )
 from semnav_env.language.languages import languages
-from semnav_env.language.question import MOST_QUESTIONS, ask_until_clear
+from semnav_env.language.question import MOST_QUESTIONS, MOST_WORDS, ask_until_clear
 from semnav_env.language.references import ENTRY, DoorReference, Side
 from tests.support.asked import asked_about
 
@@ -183,3 +183,44 @@ def test_a_question_survives_pickling() -> None:
     assert str(copy) == str(error)
     assert copy.question.answer("left") == read(SIDES[0])
     assert ask_until_clear(copy, lambda _: "right") == read(SIDES[1])
+
+
+VILLA = ("parents' bedroom", "daughter's bedroom", "kitchen", "living room")
+THREE = ("Büro Nord", "Büro Süd", "Büro West", "Labor")
+
+
+@pytest.mark.parametrize(
+    ("text", "question"),
+    [
+        ("go to the bedroom", 'Room "parents bedroom", or room "daughters bedroom"?'),
+        ("please drive into the bedroom", 'Room "parents bedroom", or room "daughters bedroom"?'),
+        ("stop in front of the bedroom", 'Room "parents bedroom", or room "daughters bedroom"?'),
+        ("fahr ins Schlafzimmer", 'Raum "parents bedroom" oder Raum "daughters bedroom"?'),
+    ],
+)
+@pytest.mark.parametrize(("answer", "number"), [("daughter's", 1), ("parents", 0), ("1", 0)])
+def test_a_kind_of_which_there_are_two_rooms_is_asked_about_by_their_names(
+    text: str, question: str, answer: str, number: int
+) -> None:
+    with pytest.raises(AmbiguousCommandError) as asked:
+        parse(text, rooms=VILLA)
+    assert asked.value.question.text == question
+    assert len(question.split()) <= MOST_WORDS
+    command = asked.value.question.answer(answer)
+    assert f'room "{("parents", "daughters")[number]} bedroom"' in str(command)
+
+
+def test_of_three_rooms_of_a_kind_the_third_is_asked_about_when_two_are_not_meant() -> None:
+    with pytest.raises(AmbiguousCommandError) as asked:
+        parse("fahr ins Büro", rooms=THREE)
+    with pytest.raises(AmbiguousCommandError) as again:
+        asked.value.question.answer("keine von beiden")
+    assert again.value.question.text == 'In Raum "buero west"?'
+    assert str(again.value.question.answer("ja")) == 'go to room "buero west"'
+
+
+@pytest.mark.parametrize(
+    "text", ["go to the parents' bedroom", "leave the bedroom", "go to the bedroom on the left"]
+)
+def test_where_one_reading_is_meant_no_room_of_a_kind_is_asked_about(text: str) -> None:
+    parse(text, rooms=VILLA)

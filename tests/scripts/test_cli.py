@@ -109,6 +109,18 @@ def test_help_is_printed_and_done(capsys, words):
     assert "semnav" in out
 
 
+@pytest.mark.parametrize("name", ["demo", "evaluate", "train", "extract"])
+def test_an_option_that_may_be_absent_is_shown_like_any_other(capsys, name):
+    """Nobody types "None" for it: the option is left out."""
+    assert "{None}" not in run(capsys, name, "--help")[1]
+
+
+def test_an_option_that_may_be_absent_takes_none_for_a_value_like_any_other(capsys):
+    """A file may be called so, and a number may not."""
+    assert "no floor plan" in run(capsys, "demo", "stop", "--map", "None")[2]
+    assert "--seed" in run(capsys, "demo", "stop", "--seed", "None")[2]
+
+
 def test_the_help_names_every_command(capsys):
     _, out, _ = run(capsys, "--help")
     for name, (_, help_text) in COMMANDS.items():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from semnav_env.judge import Judge, Verdict
 from semnav_env.judge.metrics import Metrics
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.goal import Goal, door_of
 
 
@@ -17,7 +18,7 @@ def cause_of(judge: Judge, metrics: Metrics, impossible: str | None) -> str:
     """
     if judge.success:
         return ""
-    words = [what_happened(judge)]
+    words: list[str] = [what_happened(judge)]
     if impossible:
         words.append(f"robot: {impossible}")
     words.append(f"{metrics.goal_distance:.1f} m from the goal")
@@ -26,21 +27,22 @@ def cause_of(judge: Judge, metrics: Metrics, impossible: str | None) -> str:
     return "; ".join(words)
 
 
-def what_happened(judge: Judge) -> str:
+def what_happened(judge: Judge) -> Told:
     """What the robot did instead of the clause in which an episode failed."""
     goal = judge.follower.goal
     match judge.failure:
         case Verdict.WRONG_DOOR:
-            return f"crossed {judge.crossed[-1]}, {_instead(goal)}"
+            return Told("crossed {door}, {instead}", door=judge.crossed[-1], instead=_instead(goal))
         case Verdict.WRONG_TURN:
-            return f"left by another arm or went past, {_instead(goal)}"
+            return Told("left by another arm or went past, {instead}", instead=_instead(goal))
         case Verdict.INCOMPLETE:
-            return f"not done in full: {judge.mission.command.clauses[judge.clause]}"
+            clause = judge.mission.command.clauses[judge.clause]
+            return Told("not done in full: {what}", what=clause)
         case _:
-            return f"not done: {goal.because}"
+            return Told("not done: {what}", what=goal.because)
 
 
-def _instead(goal: Goal) -> str:
+def _instead(goal: Goal) -> Told:
     wanted = door_of(goal)
     door = f" ({wanted.name})" if wanted is not None and wanted.name else ""
-    return f"wanted: {goal.because}{door}"
+    return Told("wanted: {what}{door}", what=goal.because, door=door)

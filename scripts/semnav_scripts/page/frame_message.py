@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from semnav_env.env import SemNavEnv
+from semnav_env.language.languages import language_of
+from semnav_env.language.told import in_words_of
 from semnav_env.mind.grounding.goal import door_of
 from semnav_env.rendering.frame import Frame
 from semnav_features.frames import FloatArray
@@ -24,7 +26,7 @@ def frame_message(env: SemNavEnv, frame: Frame) -> dict[str, Any]:
         env: the environment, at that moment.
         frame: its `snapshot`.
     """
-    belief, period = env.belief, env.judge.period
+    belief, period, spoken = env.belief, env.judge.period, language_of(frame.language)
     return {
         "type": "frame",
         "seconds": round(env.seconds, 2),
@@ -40,7 +42,7 @@ def frame_message(env: SemNavEnv, frame: Frame) -> dict[str, Any]:
         "people": _flat(frame.people),
         "leaves": _flat(frame.leaves),
         "goal": _goal(frame),
-        "reasons": list(belief.reasons),
+        "reasons": [in_words_of(spoken, reason) for reason in belief.reasons],
         "believed": belief.clause,
         "verdicts": [str(verdict) for verdict in env.judge.verdicts],
         "contact": frame.in_contact,

@@ -12,6 +12,8 @@ from functools import partial
 from typing import Any
 
 from semnav_env.language import Command, Stop
+from semnav_env.language.languages import language_of
+from semnav_env.language.told import in_words_of
 from semnav_env.world.dynamics.social import for_json
 from semnav_features.validation import clipped
 from semnav_scripts.page.drawing_board import DrawingBoard
@@ -230,12 +232,15 @@ class PageSession(threading.Thread):
         """Say how a run ended, in words too, for those who do not see the picture."""
         drive = self._scene()
         verdicts = [str(verdict) for verdict in drive.env.judge.verdicts]
+        impossible = drive.info.get("impossible")
+        if impossible and drive.said:
+            impossible = in_words_of(language_of(drive.said[1]), impossible)
         self._tell(
             {
                 "type": "ended",
                 "outcome": outcome,
                 "verdicts": verdicts,
-                "impossible": drive.info.get("impossible"),
+                "impossible": impossible,
                 "collisions": drive.info.get("collisions", 0),
                 "seconds": round(drive.env.seconds, 1),
                 "metres": round(drive.info.get("path_length", 0.0), 1),

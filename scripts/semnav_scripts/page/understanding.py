@@ -6,7 +6,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from semnav_env.language import AmbiguousCommandError, Command, CommandError, Question, parse
+from semnav_env.language import (
+    AmbiguousCommandError,
+    Command,
+    CommandError,
+    Question,
+    corrections,
+    parse,
+)
 from semnav_env.language.language import Language
 from semnav_env.language.vocabulary.recognition import language_of_text
 
@@ -19,11 +26,13 @@ class Understood:
         text: what was said.
         command: what it means.
         language: of the speaker.
+        corrections: a line for each word that was corrected into another.
     """
 
     text: str
     command: Command
     language: Language
+    corrections: tuple[str, ...] = ()
 
     def message(self, carried_out: Command) -> dict[str, Any]:
         """What was understood, clause by clause in canonical words.
@@ -34,6 +43,7 @@ class Understood:
         return {
             "type": "understood",
             "text": self.text,
+            "corrections": list(self.corrections),
             "clauses": [clause.say(self.language) for clause in carried_out.clauses],
         }
 
@@ -94,7 +104,11 @@ def understand(
         language: "en" or "de"; recognised if not given.
         rooms: names of the rooms that there are.
     """
-    return _outcome(text, language, lambda: parse(text, language, rooms))
+    found = _outcome(text, language, lambda: parse(text, language, rooms))
+    if not isinstance(found, Understood):
+        return found
+    lines = tuple(each.say(found.language) for each in corrections(text, rooms))
+    return replace(found, corrections=lines)
 
 
 def understand_answer(asked: Asked, answer: str) -> Understood | Asked | Refused:

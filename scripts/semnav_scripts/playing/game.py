@@ -86,7 +86,7 @@ class Game:
             said = heard.text, heard.language.code, heard.command
             try:
                 self._drive.begin(said, self._drive.env.world.pose)
-                self._told = ""
+                self._told = "; ".join(heard.corrections)
             except ValueError as error:
                 self._told = str(error)
 

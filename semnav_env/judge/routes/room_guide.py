@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from semnav_env.language import Command
 from semnav_env.language.command import room_of
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.ways import Way
 from semnav_env.world.maps.floor_plan import FloorPlan
@@ -45,9 +46,11 @@ class RoomGuide:
 
         room = next((room for room in self._plan.rooms if plain_name(room.name) == name), None)
         if room is None:
-            there = ", ".join(self._plan.room_names) or "no room with a name"
-            raise GroundingError(f"{named}: {self._plan.name} has {there}")
+            there = ", ".join(self._plan.room_names) or Told("no room with a name")
+            raise GroundingError(
+                Told("{what}: {plan} has {rooms}", what=named, plan=self._plan.name, rooms=there)
+            )
         if self._geodesic is None:
             self._geodesic = self._plan.derived(Geodesic)
-        self.ways[clause] = way_into(self._plan, self._geodesic, room, begin, str(named))
+        self.ways[clause] = way_into(self._plan, self._geodesic, room, begin, named)
         return self.ways[clause]

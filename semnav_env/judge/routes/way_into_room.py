@@ -7,6 +7,8 @@ import math
 import numpy as np
 import shapely
 
+from semnav_env.language.clauses import Clause
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.ways import Way, paced
 from semnav_env.world.maps.floor_plan import FloorPlan, PlanDoor, Region
@@ -28,8 +30,11 @@ MAX_SIDE_ROOM = 1.5
 """Walls farther to the side than this do not pull a way towards the middle, metres: corridors are
 narrower than twice this, halls are not."""
 
+SHUT = (': the doors of "{room}" are shut', ': the door of "{room}" is shut')
+"""What is told of a room whose doors, or whose only door, are shut."""
 
-def way_into(plan: FloorPlan, geodesic: Geodesic, room: Region, pose: Pose, named: str) -> Way:
+
+def way_into(plan: FloorPlan, geodesic: Geodesic, room: Region, pose: Pose, named: Clause) -> Way:
     """The shortest way into a room, through the nearest of its open doors, if it has any.
 
     Args:
@@ -53,12 +58,19 @@ def way_into(plan: FloorPlan, geodesic: Geodesic, room: Region, pose: Pose, name
     best = min(range(len(ends)), key=lambda k: lengths[k])
     way = geodesic.to(ends[best]).way(begin)
     if math.isinf(lengths[best]) or not (entries or _is_at(room, way[-2])):
-        raise GroundingError(f"{named}: no open door leads there")
+        raise GroundingError(_no_open_door(named, room, plan))
     if not entries:
         (ax, ay), (bx, by) = way[-3:-1].tolist()
         return Way(_centred(plan, way[:-1]), heading=math.atan2(by - ay, bx - ax))
     door, heading = entries[best]
     return Way(_centred(plan, way), door.as_door(), heading)
+
+
+def _no_open_door(named: Clause, room: Region, plan: FloorPlan) -> Told:
+    """What is told of a room to which no way leads: also that its own doors are shut, if so."""
+    own = [door for door in plan.doors if _inward(door, room)[0]]
+    shut = "" if not own or any(door.open for door in own) else SHUT[len(own) == 1]
+    return Told(f"{{what}}: no open door leads there{shut}", what=named, room=room.name)
 
 
 def _centred(plan: FloorPlan, way: FloatArray) -> tuple[Point, ...]:

@@ -11,6 +11,7 @@ from semnav_env.judge import Mission, plan_goals, plan_mission
 from semnav_env.judge.routes.room_guide import RoomGuide
 from semnav_env.judge.tasks.request import EpisodeRequest
 from semnav_env.language import Command
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding import GroundingError
 from semnav_env.robots import RobotSpec
 from semnav_env.rules import Rules
@@ -21,6 +22,13 @@ from semnav_features.frames import Pose
 
 MOST_DRAWS = 200
 """Largest number of start poses drawn before a floor plan is refused as unfit for commands."""
+
+NO_START = (
+    'no start found in {plan} from which "{command}" can be carried out: {why}; random starts lie '
+    "in corridors, so give a pose of your own, such as one in a room; or another floor plan may "
+    "have one"
+)
+"""What is told where no random start was found."""
 
 
 class MissionMaker:
@@ -58,10 +66,10 @@ class MissionMaker:
                 raise ValueError(f"start pose {pose}: {error}")
         if command is None:
             return self._drawn(pose, rng)
-        start = pose or self._start_for(command, rng)
-        if request.implicit_steps:
-            command = self._with_implicit_steps(command, start)
         try:
+            start = pose or self._start_for(command, rng)
+            if request.implicit_steps:
+                command = self._with_implicit_steps(command, start)
             return plan_mission(
                 self.floor_plan, self.geodesic, command, start, request.feasible, self.rules
             )
@@ -87,23 +95,25 @@ class MissionMaker:
         raise ValueError(f"no command found that can be carried out in {name} from {pose or 'it'}")
 
     def _start_for(self, command: Command, rng: np.random.Generator) -> Pose:
-        """A random start from which a command can be carried out."""
+        """A random start from which a command can be carried out.
+
+        Raises:
+            GroundingError: none was found.
+        """
         from semnav_env.judge.tasks.starts import sample_start
 
         objections: Counter[str] = Counter()
+        errors: dict[str, GroundingError] = {}
         for _ in range(MOST_DRAWS):
             start = sample_start(self.floor_plan, self.robot, rng, self.rules)
             objection = self._objection(command, start)
-            if not objection:
+            if objection is None:
                 return start
-            objections[objection] += 1
+            objections[str(objection)] += 1
+            errors[str(objection)] = objection
         [(why, _)] = objections.most_common(1)
-        name = self.floor_plan.name
-        raise ValueError(
-            f'no start found in {name} from which "{command}" can be carried out: {why}; '
-            "random starts lie in corridors, so give a pose of your own, such as one in a room; or "
-            "another floor plan may have one"
-        )
+        plan = self.floor_plan.name
+        raise GroundingError(Told(NO_START, plan=plan, command=command, why=errors[why]))
 
     def _with_implicit_steps(self, command: Command, start: Pose) -> Command:
         from semnav_env.judge.tasks.implicit import (
@@ -113,14 +123,14 @@ class MissionMaker:
         here = shapely.Point(start[:2])
         in_room = any(room.polygon.contains(here) for room in self.floor_plan.rooms)
         return with_implicit_steps(
-            command, lambda each: not self._objection(each, start), in_room=in_room
+            command, lambda each: self._objection(each, start) is None, in_room=in_room
         )
 
-    def _objection(self, command: Command, start: Pose) -> str:
-        """The reason why a command cannot be carried out from a pose; empty if it can."""
+    def _objection(self, command: Command, start: Pose) -> GroundingError | None:
+        """The reason why a command cannot be carried out from a pose; None if it can."""
         try:
             guide = RoomGuide(self.floor_plan, command, self.geodesic)
             plan_goals(self.floor_plan, command, start, guide, self.rules)
         except GroundingError as error:
-            return str(error)
-        return ""
+            return error
+        return None

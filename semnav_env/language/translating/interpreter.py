@@ -23,6 +23,7 @@ from semnav_env.language.translating.refusal import Refusal, refused_language
 from semnav_env.language.translating.translator import TranslatedText, translate
 from semnav_env.language.translating.unknown_words import rests_on_known_words
 from semnav_env.language.vocabulary.recognition import language_of_text
+from semnav_env.language.vocabulary.room_words import shared_kinds
 
 
 @dataclass(frozen=True)
@@ -74,11 +75,13 @@ class LearnedInterpreter:
             return self._stop(text)
         spoken = language_of_text(text, self.language)
         if command := read_canonical(text, spoken):
-            check_rooms(command, text, self.rooms)
+            check_rooms(command, text, self.rooms, spoken)
             return Interpretation(text, command, spoken, "canonical words")
         if self.language is not None and (error := refused_language(text, spoken)):
             raise error
         found = translate(text, self.rooms, load_translator(self.folder))
+        if found and (which := self._which_of_a_kind(text, spoken, found)):
+            raise which
         if found and self._is_sure(found):
             likeliest = found.translations[0]
             command = with_defaults(likeliest.command, found.support)
@@ -111,6 +114,23 @@ class LearnedInterpreter:
             for meant in (each for each in self.rooms if plain_name(each) in named):
                 question = Question((command,), refusal.spoken, self._read, meant)
                 return AmbiguousCommandError(refusal.text, question)
+        return None
+
+    def _which_of_a_kind(
+        self, text: str, spoken: Language, found: TranslatedText
+    ) -> AmbiguousCommandError | None:
+        """The question which room is meant where a text names a kind of which there are several."""
+        words = found.plain.words
+        for kind, names in shared_kinds(tuple(self.rooms)).items():
+            for at in range(len(words)):
+                if words[at : at + len(kind)] == kind:
+                    texts = (" ".join((*words[:at], n, *words[at + len(kind) :])) for n in names)
+                    try:
+                        readings = tuple(dict.fromkeys(map(self._read, texts)))
+                    except CommandError:
+                        continue
+                    if len(readings) > 1:
+                        return AmbiguousCommandError(text, Question(readings, spoken, self._read))
         return None
 
     def _question(

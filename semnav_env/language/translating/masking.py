@@ -15,7 +15,14 @@ from semnav_env.language.errors import CommandError
 from semnav_env.language.languages import english, languages
 from semnav_env.language.normalise import normalise
 from semnav_env.language.references import Side
-from semnav_env.language.translating.spoken_values import number_at, room_at, side_at
+from semnav_env.language.translating.spoken_values import (
+    SIDE_WORDS,
+    misspelt_room,
+    misspelt_side,
+    number_at,
+    room_at,
+    side_at,
+)
 from semnav_env.language.translating.word_classes import classes_of
 from semnav_env.language.vocabulary.lexicon import Lexicon, lexicon_of
 from semnav_env.language.vocabulary.numerals import read_number
@@ -55,6 +62,7 @@ class MaskedText:
         values: the numbers and ordinals other than one, in order of their first mention.
         sides: the sides in that order.
         rooms: the plain names of the rooms in that order.
+        corrections: of each misspelt word or name its words, and what it was taken for.
     """
 
     words: tuple[str, ...]
@@ -63,6 +71,7 @@ class MaskedText:
     values: tuple[float, ...]
     sides: tuple[Side, ...]
     rooms: tuple[str, ...]
+    corrections: tuple[tuple[str, str], ...] = ()
 
 
 def masked(text: str, rooms: Sequence[str]) -> MaskedText:
@@ -85,14 +94,13 @@ def masked(text: str, rooms: Sequence[str]) -> MaskedText:
     while at < len(words):
         at = masking.take(at)
     if len(masking.values) > MAX_VALUES or len(masking.rooms) > MAX_ROOMS:
-        problem = f"more than {MAX_VALUES} different numbers or {MAX_ROOMS} rooms"
-        raise CommandError(problem, text)
+        problem = "more than {values} different numbers or {rooms} rooms"
+        raise CommandError(first.tell(problem, values=MAX_VALUES, rooms=MAX_ROOMS), text)
     said = tuple(word for word, _ in masking.found)
     marks = tuple(mark for _, mark in masking.found)
     classes = tuple(masking.classes(lexicon_for(words, first)))
-    return MaskedText(
-        said, marks, classes, tuple(masking.values), tuple(masking.sides), tuple(masking.rooms)
-    )
+    values = tuple(masking.values), tuple(masking.sides), tuple(masking.rooms)
+    return MaskedText(said, marks, classes, *values, tuple(masking.corrections))
 
 
 def _unquoted(quoted: str, names: Mapping[tuple[str, ...], str]) -> str:
@@ -114,6 +122,7 @@ class _Masking:
         self.values: dict[float, None] = {}
         self.sides: dict[Side, None] = {}
         self.rooms: dict[str, None] = {}
+        self.corrections: list[tuple[str, str]] = []
 
     def take(self, at: int) -> int:
         """Mask the word, or the phrase, at a place; the place behind it."""
@@ -131,6 +140,7 @@ class _Masking:
 
     def _room(self, at: int) -> tuple[int, int] | None:
         found = room_at(self.words, at, self.names, self.lexica)
+        found = found or self._corrected(at, misspelt_room(self.words, at, self.names, self.lexica))
         return found and (found[1], FIRST_ROOM + _place(self.rooms, found[0]))
 
     def _value(self, at: int) -> tuple[int, int] | None:
@@ -153,7 +163,17 @@ class _Masking:
 
     def _side(self, at: int) -> tuple[int, int] | None:
         found = side_at(self.words, at, self.lexica)
+        if near := found is None and self._corrected(
+            at, misspelt_side(self.words, at, self.lexica)
+        ):
+            found = SIDE_WORDS[near[0]], near[1]
         return found and (found[1], FIRST_SIDE + _place(self.sides, found[0]))
+
+    def _corrected(self, at: int, found: tuple[str, int] | None) -> tuple[str, int] | None:
+        """What misspelt words at a place were meant to be, which is noted."""
+        if found is not None:
+            self.corrections.append((" ".join(self.words[at : found[1]]), found[0]))
+        return found
 
 
 def _place(known: dict[_Key, None], value: _Key) -> int:

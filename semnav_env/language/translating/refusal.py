@@ -91,7 +91,8 @@ class Refusal:
         start, length = normalise(self.text, self.spoken).span(piece.start, piece.stop)
         problem = self.spoken.say(phrase, word=self.text[start : start + length])
         hint = self._advice(phrase, piece.text)
-        return CommandError(problem, self.text, start, length, hint=hint)
+        place = self.spoken.tell("character")
+        return CommandError(problem, self.text, start, length, hint=hint, place=place)
 
     def _advice(self, phrase: str, word: str) -> str | None:
         if phrase in ("refused_word", "refused_room") and self.rooms:

@@ -70,7 +70,7 @@ def number_at(words: Words, at: int, lexicon: Lexicon) -> tuple[float, int] | No
 
 
 def side_at(words: Words, at: int, lexica: Lexica) -> tuple[Side, int] | None:
-    """The side that the words at a place name, and the place behind them."""
+    """The side that the words at a place name, also begun, and the place behind them."""
     for lexicon in lexica:
         if found := lexicon.find(words, at, "side"):
             return Side(found[0]), found[1]
@@ -78,9 +78,14 @@ def side_at(words: Words, at: int, lexica: Lexica) -> tuple[Side, int] | None:
     if any(word in lexicon.words for lexicon in lexica):
         return None
     begun = next((side for known, side in SIDE_WORDS.items() if word.startswith(known)), None)
-    near = nearest_word(word, SIDE_WORDS)
-    side = begun or (SIDE_WORDS[near] if near and near[0] == word[0] else None)
-    return None if side is None else (side, at + 1)
+    return None if begun is None else (begun, at + 1)
+
+
+def misspelt_side(words: Words, at: int, lexica: Lexica) -> tuple[str, int] | None:
+    """The word for a side that one with a slip was meant to be, and the place behind it."""
+    word = words[at]
+    near = None if any(word in x.words for x in lexica) else nearest_word(word, SIDE_WORDS)
+    return (near, at + 1) if near and near[0] == word[0] else None
 
 
 def room_at(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str, int] | None:
@@ -94,7 +99,7 @@ def room_at(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str, i
     number = words[at + 1 : at + 2]
     if not names and words[at] in ROOM_WORDS and number and number[0][0].isdigit():
         return number[0], at + 2  # any room is taken where none is known
-    return _numbered(words, at, names, lexica) or _misspelt(words, at, names, lexica)
+    return _numbered(words, at, names, lexica)
 
 
 def _numbered(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str, int] | None:
@@ -113,12 +118,14 @@ def _numbered(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str,
     return found
 
 
-def _misspelt(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str, int] | None:
+def misspelt_room(words: Words, at: int, names: Names, lexica: Lexica) -> tuple[str, int] | None:
     """A room whose name has a slip, or is parted in another way: "libary", "bücher ei"."""
     for stop in range(min(len(words), at + 4), at, -1):
         said = "".join(words[at:stop])
         if len(said) < MIN_MISSPELT - 1 or all(_is_known(w, lexica) for w in words[at:stop]):
             continue
+        if any(tuple(words[k:stop]) in names for k in range(at + 1, stop)):
+            continue  # "my library" has no slip
         most = 2 if len(said) >= TWO_SLIPS else 1
         for name, plain in names.items():
             whole = "".join(name)

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import json
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from importlib.resources import files
+from itertools import chain
 from types import MappingProxyType
 
 from semnav_env.language.rooms import GERMAN_LETTERS, plain_name, spoken_names, without_accents
 from semnav_env.language.words import pieces
+
+MOST_ASKED = 4
+"""The most rooms of one kind for which the robot asks which is meant: two in a question."""
 
 
 def name_phrases(names: Sequence[str]) -> Mapping[tuple[str, ...], str]:
@@ -46,6 +51,21 @@ def _in_other_words(words: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
         for kind in _KINDS:
             for said in filter(lambda said: words[at : at + len(said)] == said, kind):
                 yield from ((*words[:at], *other, *words[at + len(said) :]) for other in kind)
+
+
+@lru_cache(maxsize=64)
+def shared_kinds(names: tuple[str, ...]) -> Mapping[tuple[str, ...], tuple[str, ...]]:
+    """The plain names of the rooms of each kind of which there are several, by words for it.
+
+    Of "parents' bedroom" and "daughter's bedroom" these are "bedroom" and "schlafzimmer".
+    """
+    known, found = name_phrases(names), defaultdict[tuple[str, ...], dict[str, None]](dict)
+    for kind in chain.from_iterable(_KINDS):
+        for words, name in known.items():
+            if any(words[at : at + len(kind)] == kind for at in range(len(words))):
+                found[kind][name] = None
+    several = {k: tuple(rooms) for k, rooms in found.items() if 1 < len(rooms) <= MOST_ASKED}
+    return MappingProxyType({kind: several[kind] for kind in several.keys() - known.keys()})
 
 
 _TABLE = json.loads(

@@ -53,4 +53,4 @@ class Belief(NamedTuple):
     def reasons(self) -> tuple[str, ...]:
         """The reason for the goal, followed by why the clause is impossible, if it is."""
         goal = (self.goal.because,)
-        return goal if self.impossible in (None, *goal) else (*goal, str(self.impossible))
+        return goal if self.impossible in (None, *goal) else (*goal, self.impossible)

@@ -8,6 +8,7 @@ import numpy as np
 
 from semnav_env.language.clauses import BackUp
 from semnav_env.language.references import SOME
+from semnav_env.language.told import Told, told
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.goal import ReachGoal
 from semnav_env.mind.grounding.situation import Situation
@@ -43,13 +44,19 @@ def backing_up_goal(clause: BackUp, situation: Situation) -> ReachGoal:
     if clause.distance == SOME and free > BODY + LEAST:
         asked = min(asked, free - BODY)
     if asked > free - BODY:
-        raise GroundingError(f"{clause.distance} back: there is a wall {free:.1f} m behind")
+        raise GroundingError(
+            Told(
+                "{distance} back: there is a wall {free:.1f} m behind",
+                distance=clause.distance,
+                free=free,
+            )
+        )
     pose = compose(begin, (-asked, 0.0, 0.0))
     return ReachGoal(
         pose,
         min(TOLERANCE, SHARE * asked),
         accepted.turn_heading,
-        str(clause),
+        told(clause),
         places=(begin[:2], pose[:2]),
         backwards=True,
     )

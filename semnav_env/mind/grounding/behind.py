@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from semnav_env.language.references import DoorReference, Side
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.mind.grounding.door_geometry import bearing, heading_through
 from semnav_env.mind.grounding.errors import UnclearError
@@ -72,7 +73,9 @@ def find_entry(reference: DoorReference, situation: Situation) -> CountedDoor:
     passed = situation.entry
     door = doorway_at(scene, begin) if passed is None else passed.door
     if door is None:
-        raise UnclearError(f"{reference}: the robot has come through no door; say which")
+        raise UnclearError(
+            Told("{what}: the robot has come through no door; say which", what=reference)
+        )
     outward = (begin if passed is None else passed.pose)[2] + math.pi
     off = [(math.dist(door.midpoint, seen.midpoint), seen) for seen in scene.doors]
     near = [each for each in off if each[0] <= rules.way_door_offset]
@@ -109,7 +112,9 @@ def find_exit(situation: Situation) -> Known[CountedDoor] | Searching:
                 return found
             exits = found
         if len(exits) != 1:
-            raise UnclearError("leave the room: by which door? say which, or enter the room first")
+            raise UnclearError(
+                Told("leave the room: by which door? say which, or enter the room first")
+            )
         door = exits[0]
         away = heading_through(door, heading_between(begin[:2], door.midpoint))
         inward = (*door.midpoint, wrap_angle(away + math.pi))

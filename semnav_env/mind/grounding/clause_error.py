@@ -7,6 +7,7 @@ from typing import Any
 from semnav_env.language.command import Command
 from semnav_env.language.language import Language
 from semnav_env.language.languages import language_of
+from semnav_env.language.told import in_words_of
 from semnav_env.mind.grounding.errors import GroundingError
 
 
@@ -24,18 +25,27 @@ class ClauseError(GroundingError):
         self, command: Command, clause: int, reason: str, language: str | Language = "en"
     ) -> None:
         super().__init__(command, clause, reason, language)
-        self.command, self.clause, self.reason, self._language = command, clause, reason, language
+        self.command, self.clause, self._reason, self._language = command, clause, reason, language
         self._message: str | None = None
 
     def __str__(self) -> str:
         """The message, made only when it is read, because random draws do not need it."""
         if self._message is None:
-            clause = self.command.clauses[self.clause]
-            words, why = clause.say(language_of(self._language)), self.reason
-            number = f"clause {self.clause + 1} of {len(self.command.clauses)}"
-            why = why.removeprefix(f"{clause}: ")
-            self._message = f'{number}, "{words}", cannot be carried out: {why}'
+            spoken = language_of(self._language)
+            words = self.command.clauses[self.clause].say(spoken)
+            self._message = spoken.tell(
+                'clause {number} of {count}, "{words}", cannot be carried out: {why}',
+                number=self.clause + 1,
+                count=len(self.command.clauses),
+                words=words,
+                why=in_words_of(spoken, self.reason).removeprefix(f"{words}: "),
+            )
         return self._message
+
+    @property
+    def reason(self) -> str:
+        """Why the clause cannot be carried out."""
+        return self._reason
 
     def in_words_of(self, language: Language) -> ClauseError:
         """A copy of the error with the clause in the words of a language."""

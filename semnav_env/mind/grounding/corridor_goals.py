@@ -10,12 +10,14 @@ from semnav_env.language.references import (
     DoorReference,
     Place,
     PlaceOffset,
+    PlaceReference,
     RoomReference,
     Side,
     Unit,
 )
+from semnav_env.language.told import Told, told
 from semnav_env.mind.grounding.counted_doors import doors_along
-from semnav_env.mind.grounding.errors import GroundingError, UnclearError
+from semnav_env.mind.grounding.errors import NOT_BEHIND, GroundingError, UnclearError
 from semnav_env.mind.grounding.find import find_door, find_junction, junction_name
 from semnav_env.mind.grounding.goal import Goal, ReachGoal, SeekGoal
 from semnav_env.mind.grounding.goals import search_goal
@@ -26,7 +28,11 @@ from semnav_features.corridor import Junction, doorway_at
 from semnav_features.frames import compose
 from semnav_features.scene import Door
 
-END_OF_HALLWAY = "the end of the hallway"
+IN_DOORWAY = "{what}: one stands in that doorway; say to go through it"
+SOME_TOLD = "a bit of {metres} metres, as it was not said how far"
+"""Messages of clauses along a corridor."""
+
+END_OF_HALLWAY = PlaceReference(Place.END)
 
 
 def turn_goal(clause: Turn, situation: Situation) -> Goal:
@@ -40,7 +46,9 @@ def turn_goal(clause: Turn, situation: Situation) -> Goal:
     found = find_junction(clause.at, clause.turning, situation)
     if isinstance(found, Searching):
         return search_goal(found)
-    because = f"turn {clause.turning} at {junction_name(clause.at)}"
+    because = Told(
+        "turn {turning} at {place:at}", turning=clause.turning, place=junction_name(clause.at)
+    )
     return _into_arm(found.value, clause.turning, because, situation)
 
 
@@ -87,9 +95,9 @@ def follow_goal(clause: Follow, situation: Situation) -> Goal:
     junction = found.value
     if clause.past and until.place is Place.CORNER:
         way = Turning.RIGHT if junction.left is None else Turning.LEFT
-        return _into_arm(junction, way, f"go on {_where(clause)}", situation)
+        return _into_arm(junction, way, Told("go on behind {place}", place=until), situation)
     if clause.past and not junction.ahead and situation.complete:
-        raise GroundingError(f"the hallway does not go on behind {until}")
+        raise GroundingError(Told(NOT_BEHIND, place=until))
     behind = junction.far + situation.rules.grounding.behind_referent
     along = min(behind, last_stop) if clause.past else junction.centre
     return _go_on(situation, along, _where(clause))
@@ -103,7 +111,9 @@ def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) 
             doorway that the robot stands in.
     """
     if until.side is Side.OPPOSITE:
-        raise UnclearError(f"{clause}: it lies across; say to go to it, or through it")
+        raise UnclearError(
+            Told("{what}: it lies across; say to go to it, or through it", what=clause)
+        )
     found = find_door(until, situation)
     if isinstance(found, Searching):
         return search_goal(found)
@@ -112,23 +122,21 @@ def _follow_to_door(clause: Follow, until: DoorReference, situation: Situation) 
         from semnav_env.mind.grounding.visible_doors import own_doorway  # few commands need it
 
         if door.door == own_doorway(situation.scene, turned(situation.begin), rules):
-            raise UnclearError(f"{clause}: one stands in that doorway; say to go through it")
+            raise UnclearError(Told(IN_DOORWAY, what=clause))
     shift = rules.behind_referent if clause.past else -rules.before_door
     along = min(door.along + shift, situation.last_stop)
     return _go_on(situation, along, _where(clause), door.door)
 
 
-def _where(clause: Follow) -> str:
-    return f"behind {clause.until}" if clause.past else str(clause.until)
+def _where(clause: Follow) -> Told:
+    return Told("behind {place}", place=clause.until) if clause.past else told(clause.until)
 
 
-def _told(distance: Distance, situation: Situation) -> str:
+def _told(distance: Distance, situation: Situation) -> Told:
     """A distance in words; of "a bit" also how long that is."""
     if distance.unit is not Unit.SOME:
-        return str(distance)
-    from semnav_env.language.languages import english  # read when first spoken
-
-    return english().say("some_told", metres=situation.metres(distance))
+        return told(distance)
+    return Told(SOME_TOLD, metres=situation.metres(distance))
 
 
 def _distance_along(distance: Distance, situation: Situation) -> float:
@@ -142,17 +150,23 @@ def _distance_along(distance: Distance, situation: Situation) -> float:
         return max(0.0, min(situation.metres(distance), most))
     if distance.metres > most and situation.complete:
         raise GroundingError(
-            f"{distance} ahead: the hallway ends after {situation.corridor.end:.1f} m"
+            Told(
+                "{distance} ahead: the hallway ends after {end:.1f} m",
+                distance=distance,
+                end=situation.corridor.end,
+            )
         )
     return min(distance.metres, most)
 
 
-def _go_on(situation: Situation, along: float, where: str, beside: Door | None = None) -> ReachGoal:
+def _go_on(
+    situation: Situation, along: float, where: object, beside: Door | None = None
+) -> ReachGoal:
     """The goal at a distance along the corridor, beside a door if one ends the distance."""
     return ReachGoal(
         situation.corridor.place(along),
         situation.rules.success.corridor_distance,
-        because=f"go on to {where}",
+        because=Told("go on to {place:to}", place=where),
         beside=beside,
         corridor=situation.corridor,
     )
@@ -170,7 +184,7 @@ def _turn_here(turning: Turning, situation: Situation) -> ReachGoal:
         pose,
         accepted.turn_distance,
         accepted.turn_heading,
-        f"turn {turning} here",
+        Told("{turn} here", turn=Turn(turning)),
         onward=compose(pose, (past, 0.0, 0.0)),
     )
 
@@ -189,7 +203,7 @@ def _turn_by(turning: Turning, degrees: int, situation: Situation) -> ReachGoal:
         compose(situation.begin, (0.0, 0.0, math.copysign(angle, QUARTER_TURNS[turning]))),
         accepted.turn_distance,
         min(accepted.turn_heading, max(accepted.turn_heading_min, angle / 2)),
-        f"turn {turning} by {degrees} degrees",
+        told(Turn(turning, degrees=degrees)),
     )
 
 
@@ -202,6 +216,6 @@ def _turn_around(clause: Turn, situation: Situation) -> Goal:
         compose(there.pose, (0.0, 0.0, math.pi)),
         accepted.turn_distance,
         accepted.turn_heading,
-        f"turn around at {clause.at or END_OF_HALLWAY}",
+        Told("turn around at {place:at}", place=clause.at or END_OF_HALLWAY),
         corridor=situation.corridor,
     )

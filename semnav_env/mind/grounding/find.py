@@ -17,16 +17,20 @@ from semnav_env.language.references import (
     RoomReference,
     Side,
 )
+from semnav_env.language.told import Told, told
 from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.mind.grounding.door_geometry import heading_through
 from semnav_env.mind.grounding.errors import GroundingError, UnclearError
 from semnav_env.mind.grounding.junctions import junctions_ahead
 from semnav_env.mind.grounding.search import Known, Searching
-from semnav_env.mind.grounding.situation import Situation, is_behind
+from semnav_env.mind.grounding.situation import Situation, one_on_each_side
 from semnav_features.corridor import Junction
 
 if TYPE_CHECKING:
     from semnav_env.mind.grounding.related_doors import HallSpan
+
+MISSING = "no {what:bare}"
+"""Beginning of what a robot tells of a referent that is not there."""
 
 
 def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
@@ -54,9 +58,11 @@ def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDo
     index = _index(reference, len(doors))
     if not 0 <= index < len(doors):
         if not more:
-            raise GroundingError(f"no {str(reference).removeprefix('the ')}: there is {len(doors)}")
+            raise GroundingError(
+                Told(f"{MISSING}: there is {{count}}", what=reference, count=len(doors))
+            )
         if situation.seen_to_end:
-            raise _missing(str(reference), len(doors))
+            raise _missing(told(reference), len(doors))
         return situation.go_on(reference)
     door = doors[index]
     if situation.complete:
@@ -64,7 +70,7 @@ def find_door(reference: DoorReference, situation: Situation) -> Known[CountedDo
     elif more and not (situation.back and situation.seen_to_end):
         side = None if situation.back else reference.side
         if _may_hide_a_door(situation, side, door.along):
-            return situation.go_on(f"doors before {reference}", door.along)
+            return situation.go_on(Told("doors before {what:dative}", what=reference), door.along)
     return Known(door)
 
 
@@ -107,15 +113,17 @@ def find_junction(
     counted = ordinal > 0 or situation.seen_to_end
     if counted and len(junctions) >= abs(ordinal):
         return Known(junctions[ordinal - 1 if ordinal > 0 else ordinal])
-    name = junction_name(reference) + ("" if turning is None else f" that leads {turning}")
+    name = junction_name(reference)
+    if turning is not None:
+        name = Told("{place} that leads {turning}", place=name, turning=turning)
     if situation.seen_to_end:
         raise _missing(name, len(junctions))
     return situation.go_on(name)
 
 
-def junction_name(reference: PlaceReference | None) -> str:
+def junction_name(reference: PlaceReference | None) -> Told:
     """The words of a reference for a junction; without a reference it is the next junction."""
-    return "the next junction" if reference is None else str(reference)
+    return Told("the next junction") if reference is None else told(reference)
 
 
 def _find_opposite(
@@ -124,18 +132,17 @@ def _find_opposite(
     from semnav_env.mind.grounding import opposite  # few commands need it
 
     if reference.ordinal not in opposite.ORDINALS_OF_ONE:
-        raise GroundingError(f"no {str(reference).removeprefix('the ')}: at most one is opposite")
+        raise GroundingError(Told(f"{MISSING}: at most one is opposite", what=reference))
     found = opposite.doors_opposite(reference, situation)
     if isinstance(found, Searching):
         return found
     if len(found.value) > 1:
-        sides = " and ".join(sorted(view.side for view in found.value))
-        raise UnclearError(f"{reference}: there is one {sides} there; say on which side")
+        raise UnclearError(one_on_each_side(reference, [view.side for view in found.value]))
     for view, door in found.value.items():
         outward = heading_through(door, view.pose[2])
         return Known(CountedDoor(door, 0.0, Side.OPPOSITE, outward))
     here = "this place" if opposite.view_from_door(situation) is None else "that door"
-    raise GroundingError(f"no door opposite: none faces {here}")
+    raise GroundingError(Told(f"no door opposite: none faces {here}"))
 
 
 def _find_related(reference: DoorReference, situation: Situation) -> Known[CountedDoor] | Searching:
@@ -158,10 +165,13 @@ def _find_related(reference: DoorReference, situation: Situation) -> Known[Count
     start, until = related.decisive_stretch(reference, span.value, found, situation)
     side = related.counted_side(reference, span.value)
     if not situation.complete and _may_hide_a_door(situation, side, until, start):
-        return situation.go_on(f"doors {reference.relation} {reference.to}", until)
+        return situation.go_on(
+            Told(f"doors {reference.relation} {{what:dative}}", what=reference.to), until
+        )
     if found is None:
-        there = f"there are {len(doors)}" if len(doors) != 1 else "there is 1"
-        raise GroundingError(f"no {str(reference).removeprefix('the ')}: {there}")
+        there = "there are" if len(doors) != 1 else "there is"
+        told_there = Told(f"{MISSING}: {there} {{count}}", what=reference, count=len(doors))
+        raise GroundingError(told_there)
     if situation.complete and reference.relation is DoorRelation.AT:
         related.check_nearest(reference, span.value, doors, index, situation)
     elif situation.complete:
@@ -199,7 +209,9 @@ def _index(reference: DoorReference, count: int) -> int:
     """
     if reference.ordinal == OTHER:
         if count > 1:
-            raise UnclearError(f"{reference}: there are {count}; say which")
+            raise UnclearError(
+                Told("{what}: there are {count}; say which", what=reference, count=count)
+            )
         return 0
     return reference.ordinal - 1 if reference.ordinal > 0 else count + reference.ordinal
 
@@ -212,12 +224,12 @@ def _check_order(
     for other in doors[max(0, index - 1) : index + 2]:
         straight = other.side is Side.BEHIND and abs(other.off - chosen.off) < rules.behind_angle
         if other is not chosen and straight:
-            raise UnclearError(f"{reference}: two there are equally nearly straight behind")
+            raise UnclearError(
+                Told("{what}: two there are equally nearly straight behind", what=reference)
+            )
         abreast = abs(other.along - chosen.along) < rules.abreast_distance
         if abreast and other.side is not chosen.side:
-            sides = " and ".join(sorted((other.side, chosen.side)))
-            say = "turn around first, and say" if is_behind(reference) else "say"
-            raise UnclearError(f"{reference}: there is one {sides} there; {say} on which side")
+            raise UnclearError(one_on_each_side(reference, (other.side, chosen.side)))
 
 
 def _may_hide_a_door(
@@ -233,12 +245,12 @@ def _may_hide_a_door(
     return False
 
 
-def _missing(what: str, count: int) -> GroundingError:
+def _missing(what: Told, count: int) -> GroundingError:
     """The error for a missing referent: "no third door: the hallway ended after 2".
 
     Args:
-        what: was looked for, beginning with "the".
+        what: was looked for.
         count: how many of the kind there are.
     """
-    there = f"ended after {count}" if count else "has none"
-    return GroundingError(f"no {what.removeprefix('the ')}: the hallway {there}")
+    there = "ended after {count}" if count else "has none"
+    return GroundingError(Told(f"{MISSING}: the hallway {there}", what=what, count=count))

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from semnav_env.language.clauses import Clause, GoToRoom
 from semnav_env.language.finding_clauses import CallOut, LookAround, SearchHouse, SearchRoom
+from semnav_env.language.told import told
 from semnav_env.mind.grounding.goal import Goal, StopGoal
 from semnav_env.mind.grounding.goals import way_goal
 from semnav_env.mind.grounding.situation import Situation
@@ -29,4 +30,4 @@ def finding_goal(clause: Clause, situation: Situation) -> Goal:
     searches = isinstance(clause, SearchHouse | SearchRoom)
     rest = rules.search_rest_seconds if searches else rules.finding_rest_seconds
     stays = isinstance(clause, LookAround | CallOut)
-    return StopGoal(situation.begin, str(clause), rest, roams=not stays)
+    return StopGoal(situation.begin, told(clause), rest, roams=not stays)

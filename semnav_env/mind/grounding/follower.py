@@ -178,7 +178,7 @@ class Follower:
                 self.impossible = None
                 self._lead_to(self._found)
                 return
-            self.impossible = str(error)
+            self.impossible = error.reason
             self._lead_to(StopGoal(pose, self.impossible))
 
     def skip_to_next(self, scene: Scene) -> None:

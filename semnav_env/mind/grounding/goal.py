@@ -8,10 +8,14 @@ from enum import IntEnum
 from typing import ClassVar, TypeAlias
 
 from semnav_env.language.references import Side
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.goal_check import is_crossed, is_reached
 from semnav_features.corridor import Corridor, Junction
 from semnav_features.frames import Point, Pose
 from semnav_features.scene import Door
+
+LOOKING = "looking for {what:dative}"
+"""What a robot tells while its referent has not been seen."""
 
 
 class GoalKind(IntEnum):
@@ -64,7 +68,7 @@ class SeekGoal(BaseGoal):
     @property
     def because(self) -> str:
         """The object of the goal in words, for the picture and the log."""
-        return f"looking for {self.what}"
+        return Told(LOOKING, what=self.what)
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 
-from semnav_env.language.clauses import Approach, GoBack, GoToDoor, GoToRoom
+from semnav_env.language.clauses import Approach, GoBack, GoToDoor, GoToRoom, Leave
 from semnav_env.language.references import Side
+from semnav_env.language.told import Told, told
 from semnav_env.mind.grounding.counted_doors import CountedDoor
 from semnav_env.mind.grounding.door_geometry import heading_through
-from semnav_env.mind.grounding.errors import GroundingError
+from semnav_env.mind.grounding.errors import NO_WAY_TOLD, GroundingError
 from semnav_env.mind.grounding.find import find_door
-from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
+from semnav_env.mind.grounding.goal import LOOKING, Goal, PassGoal, ReachGoal, SeekGoal
 from semnav_env.mind.grounding.goal_check import looks_along
 from semnav_env.mind.grounding.niches import at_the_back
 from semnav_env.mind.grounding.search import Searching
@@ -26,7 +27,7 @@ def search_goal(search: Searching) -> SeekGoal | ReachGoal:
     The goal of a search on the spot is never reached, because turning alone completes no clause.
     """
     if search.on_the_spot:
-        return ReachGoal(search.lookout, 0.0, 0.0, f"looking for {search.what}")
+        return ReachGoal(search.lookout, 0.0, 0.0, Told(LOOKING, what=search.what))
     return SeekGoal(search.lookout, search.what, corridor=search.corridor, places=search.places)
 
 
@@ -70,13 +71,12 @@ def door_goal(clause: GoToDoor, situation: Situation) -> Goal:
 
 def _because(clause: GoToDoor) -> str:
     """The door in words, with a remark if the approach was not said."""
-    from semnav_env.language.languages import english  # read when first spoken
-
-    return str(clause.door) + (english().say("by_default") if clause.by_default else "")
+    by_default = "{door}, through it, as nothing else was said"
+    return Told(by_default, door=clause.door) if clause.by_default else told(clause.door)
 
 
 def leave_goal(situation: Situation) -> Goal:
-    """The goal of "leave the room"."""
+    """The goal of told(Leave())."""
     from semnav_env.mind.grounding.behind import find_exit  # few commands need it
 
     found = find_exit(situation)
@@ -84,7 +84,7 @@ def leave_goal(situation: Situation) -> Goal:
         return search_goal(found)
     door = found.value
     behind, line = door.pose(situation.rules.grounding.stand_off), door.pose(0.0)
-    return PassGoal(behind, door.door, "leave the room", onward=line)
+    return PassGoal(behind, door.door, told(Leave()), onward=line)
 
 
 def way_goal(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
@@ -95,9 +95,9 @@ def way_goal(clause: GoToRoom | GoBack, situation: Situation) -> Goal:
     Raises:
         GroundingError: the robot has not been told the way.
     """
-    way, because = situation.way, str(clause)
+    way, because = situation.way, told(clause)
     if way is None:
-        raise GroundingError(f"{clause}: the robot has not been told the way there")
+        raise GroundingError(Told(NO_WAY_TOLD, what=clause))
     if way.door is None:
         return _end_of_way(way, because, situation)
     rules = situation.rules.grounding

@@ -20,6 +20,7 @@ from semnav_env.language.clauses import (
 from semnav_env.language.command import reference_of
 from semnav_env.language.finding_clauses import FindingClause
 from semnav_env.language.references import ENTRY, DoorReference, PlaceOffset, RoomReference
+from semnav_env.language.told import Told, told
 from semnav_env.mind.grounding.corridor_goals import follow_goal, turn_goal
 from semnav_env.mind.grounding.errors import GroundingError
 from semnav_env.mind.grounding.goal import Goal, StopGoal
@@ -137,15 +138,15 @@ def _goal_in_hallway(clause: Clause, situation: Situation) -> Goal:
 
             return backing_up_goal(clause, situation)
         case IfThere():
-            raise GroundingError(f"{clause}: a condition leads nowhere by itself")
+            raise GroundingError(Told("{what}: a condition leads nowhere by itself", what=clause))
         case Pace():
-            raise GroundingError(f"{clause}: a pace leads nowhere by itself")
+            raise GroundingError(Told("{what}: a pace leads nowhere by itself", what=clause))
         case FindingClause():
             from semnav_env.mind.grounding.finding_goals import finding_goal  # here, as it is rare
 
             return finding_goal(clause, situation)
         case Stop():
-            return StopGoal(situation.begin, str(clause), float(clause.seconds))
+            return StopGoal(situation.begin, told(clause), float(clause.seconds))
         case GroundedClause():
             return clause.goal(situation)
     raise TypeError(f"{clause!r} is no clause")

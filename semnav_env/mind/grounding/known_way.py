@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.goal import Goal, PassGoal, ReachGoal, SeekGoal
 from semnav_env.rules import GroundingRules
 from semnav_features.frames import Point, Pose, to_local, to_parent, wrap_angle
@@ -24,13 +25,13 @@ def next_on_way(goal: Goal, pose: Pose, rules: GroundingRules) -> Goal:
         there = goal.pose
     stretch = _along(goal.places, here)
     if goal.wall is not None:  # the lane was measured from the wall, so that it has not drifted
-        return SeekGoal(there, f"the wall on the {goal.wall}")
+        return SeekGoal(there, Told("the wall on the {side}", side=goal.wall))
     before = _along(goal.places, max(here - 1, 0))
     turned = max(abs(wrap_angle(each[2] - there[2])) for each in (before, stretch))
     if turned < rules.straight_way_angle:  # at a bend, an offset is no drift
         offset = to_local(stretch, pose[:2])[1]
         there = _beside(there, offset if abs(offset) < rules.way_drift else 0.0)
-    return SeekGoal(there, "the way")
+    return SeekGoal(there, Told("the way"))
 
 
 def _along(places: Sequence[Point], index: int) -> Pose:

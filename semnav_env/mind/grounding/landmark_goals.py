@@ -6,7 +6,8 @@ import math
 
 from semnav_env.language.clauses import Face, Follow
 from semnav_env.language.references import DoorReference, Place, PlaceReference, RoomReference, Side
-from semnav_env.mind.grounding.errors import GroundingError
+from semnav_env.language.told import Told, told
+from semnav_env.mind.grounding.errors import NO_WAY_TOLD, GroundingError
 from semnav_env.mind.grounding.find import find_door, find_junction
 from semnav_env.mind.grounding.goal import Goal, ReachGoal
 from semnav_env.mind.grounding.goals import search_goal
@@ -47,7 +48,9 @@ def follow_to_room(clause: Follow, situation: Situation) -> ReachGoal:
     return ReachGoal(
         (x, y, along[2]),
         accepted.way_distance,
-        because=f"go on {'behind' if clause.past else 'to'} {clause.until}",
+        because=Told(
+            "go on behind {place}" if clause.past else "go on to {place:to}", place=clause.until
+        ),
         beside=door,
         offset_tolerance=accepted.way_offset,
         places=(*way.places[: last + 1], (x, y)),
@@ -112,11 +115,11 @@ def _turned_to(heading: float, clause: Face, situation: Situation) -> ReachGoal:
         (*situation.begin[:2], heading),
         accepted.turn_distance,
         accepted.turn_heading,
-        str(clause),
+        told(clause),
     )
 
 
 def _way(clause: Follow | Face, situation: Situation) -> Way:
     if situation.way is None:
-        raise GroundingError(f"{clause}: the robot has not been told the way there")
+        raise GroundingError(Told(NO_WAY_TOLD, what=clause))
     return situation.way

@@ -7,13 +7,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.room_exits import distances_to, room_exits, without_gaps
 from semnav_env.mind.grounding.search import Searching
 from semnav_env.mind.grounding.situation import Situation, turned
 from semnav_features.frames import FloatArray, Pose
 from semnav_features.scene import Door, Scene, ends_of
 
-REFERENT = "the door of the room"
+REFERENT = Told("the door of the room")
 """The referent of the search, in words."""
 
 HEADINGS: FloatArray = math.pi / 12 * np.arange(24.0)

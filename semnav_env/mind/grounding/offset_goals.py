@@ -13,7 +13,8 @@ from semnav_env.language.references import (
     Relation,
     RoomReference,
 )
-from semnav_env.mind.grounding.errors import GroundingError
+from semnav_env.language.told import Told
+from semnav_env.mind.grounding.errors import NOT_BEHIND, GroundingError
 from semnav_env.mind.grounding.find import find_door, find_junction
 from semnav_env.mind.grounding.goal import Goal, ReachGoal
 from semnav_env.mind.grounding.goals import search_goal
@@ -46,7 +47,7 @@ def offset_goal(offset: PlaceOffset, situation: Situation) -> Goal:
         return _along(offset, door.value.along + shift, situation)
     if place.place is Place.END:
         if math.isinf(situation.last_stop):
-            return search_goal(situation.go_on(str(place)))
+            return search_goal(situation.go_on(place))
         return _along(offset, situation.corridor.end + shift, situation)
     found = find_junction(place, None, situation)
     if isinstance(found, Searching):
@@ -67,7 +68,7 @@ def _off_junction(
         mouth = mouth_of(junction, way, situation.corridor, situation.scene, rules)
         return _goal(offset, compose(mouth, (shift, 0.0, 0.0)), situation)
     if not junction.ahead and situation.complete:
-        raise GroundingError(f"the hallway does not go on behind {offset.place}")
+        raise GroundingError(Told(NOT_BEHIND, place=offset.place))
     return _along(offset, junction.far + shift, situation)
 
 
@@ -95,7 +96,9 @@ def _along(offset: PlaceOffset, along: float, situation: Situation) -> ReachGoal
     most = situation.corridor.end - situation.rules.grounding.end_margin / 2
     if along > most and offset.relation is Relation.AFTER and situation.complete:
         end = situation.corridor.end
-        raise GroundingError(f"{offset}: the hallway ends after {end:.1f} m")
+        raise GroundingError(
+            Told("{offset}: the hallway ends after {end:.1f} m", offset=offset, end=end)
+        )
     return _goal(offset, situation.corridor.place(max(0.0, min(along, most))), situation)
 
 
@@ -103,6 +106,6 @@ def _goal(offset: PlaceOffset, pose: Pose, situation: Situation) -> ReachGoal:
     return ReachGoal(
         pose,
         min(situation.rules.success.corridor_distance, SHARE * situation.metres(offset.distance)),
-        because=f"go on to {offset}",
+        because=Told("go on to {place:to}", place=offset),
         corridor=situation.corridor,
     )

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from semnav_env.language.references import LAST, OTHER, Side
+from semnav_env.language.told import told
 from semnav_env.mind.grounding.door_geometry import heading_through, shared_width
 from semnav_env.mind.grounding.search import Known, Searching
 from semnav_env.mind.grounding.situation import Situation
@@ -64,11 +65,11 @@ class AcrossView:
     def search(self, situation: Situation, what: object) -> Searching:
         """The search in this view: by turning, or by coming out of the doorway."""
         if not situation.scene.walls:
-            return Searching(str(what), situation.begin)
+            return Searching(told(what), situation.begin)
         if not situation.looks_along(self.pose[2]):
             return situation.turn_to(self.pose[2], what)
         step = situation.rules.grounding.lookout_step
-        return Searching(str(what), compose(self.pose, (step, 0.0, 0.0)))
+        return Searching(told(what), compose(self.pose, (step, 0.0, 0.0)))
 
     def _is_inspected(self, situation: Situation) -> bool:
         """Whether a robot in a corridor has seen this side.

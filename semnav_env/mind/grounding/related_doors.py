@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from semnav_env.language.references import DoorReference, DoorRelation, Side
+from semnav_env.language.told import Told
 from semnav_env.mind.grounding.counted_doors import CountedDoor, doors_along
 from semnav_env.mind.grounding.errors import UnclearError
-from semnav_env.mind.grounding.situation import Situation
+from semnav_env.mind.grounding.situation import Situation, one_on_each_side
 from semnav_features.corridor import Junction
 from semnav_features.scene import Door
 
@@ -95,6 +96,7 @@ def check_nearest(
         if other is chosen or apart >= least:
             continue
         if other.side is not chosen.side:
-            sides = " and ".join(sorted((other.side, chosen.side)))
-            raise UnclearError(f"{reference}: there is one {sides} there; say on which side")
-        raise UnclearError(f"{reference}: there are two, equally near; say before it or after it")
+            raise UnclearError(one_on_each_side(reference, (other.side, chosen.side)))
+        raise UnclearError(
+            Told("{what}: there are two, equally near; say before it or after it", what=reference)
+        )

@@ -6,8 +6,9 @@ import math
 from dataclasses import replace
 
 from semnav_env.language.references import DoorReference, RoomReference, Side
+from semnav_env.language.told import Told, told
 from semnav_env.mind.grounding.door_geometry import heading_through
-from semnav_env.mind.grounding.errors import GroundingError
+from semnav_env.mind.grounding.errors import NO_WAY_TOLD, GroundingError
 from semnav_env.mind.grounding.goal import Goal, PassGoal, SeekGoal
 from semnav_env.mind.grounding.related_doors import HallSpan
 from semnav_env.mind.grounding.search import Searching
@@ -39,7 +40,7 @@ def hallway_of(reference: DoorReference, situation: Situation) -> Situation | Se
     if situation.begin == there or (first == 0 and not turned):
         return situation
     if not situation.complete and first > 0 and _index_on(way, situation.pose) < first:
-        return Searching(str(reference), there, places=way.places[: first + 1])
+        return Searching(told(reference), there, places=way.places[: first + 1])
     return replace(situation, begin=there)
 
 
@@ -69,9 +70,11 @@ def led_along(goal: Goal, way: Way, situation: Situation) -> Goal:
 def _way(reference: DoorReference, situation: Situation) -> Way:
     way = situation.way
     if way is None:
-        raise GroundingError(f"{reference}: the robot has not been told the way there")
+        raise GroundingError(Told(NO_WAY_TOLD, what=reference))
     if len(set(way.places)) == 1:
-        raise GroundingError(f"{reference}: the robot is in that room; leave it first")
+        raise GroundingError(
+            Told("{what}: the robot is in that room; leave it first", what=reference)
+        )
     return way
 
 

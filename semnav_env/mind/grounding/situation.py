@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from semnav_env.language.references import Distance, DoorReference, Side, Unit
+from semnav_env.language.told import Told, told
 from semnav_env.mind.grounding.goal import PassGoal
 from semnav_env.mind.grounding.goal_check import looks_along
 from semnav_env.mind.grounding.search import Searching
@@ -94,7 +96,7 @@ class Situation:
 
     def turn_to(self, heading: float, what: object) -> Searching:
         """A search by turning on the spot, where the clause began."""
-        return Searching(str(what), (*self.begin[:2], heading), on_the_spot=True)
+        return Searching(told(what), (*self.begin[:2], heading), on_the_spot=True)
 
     def go_on(self, what: object, at_most: float = math.inf) -> Searching:
         """A search along the corridor; first the robot turns to where the referent may be.
@@ -106,7 +108,7 @@ class Situation:
         if self.back and not self.looks_along(self.begin[2]):
             return self.turn_to(self.begin[2], what)
         along = min(self.progress + self.rules.grounding.look_ahead, min(self.last_stop, at_most))
-        return Searching(str(what), self.corridor.place(along), self.corridor)
+        return Searching(told(what), self.corridor.place(along), self.corridor)
 
     def has_come(self, at_most: float) -> bool:
         """Whether the robot has reached the lookout point of `go_on`."""
@@ -117,6 +119,14 @@ class Situation:
 def is_behind(reference: object) -> bool:
     """Whether a reference is to a door behind the robot."""
     return isinstance(reference, DoorReference) and reference.side is Side.BEHIND
+
+
+def one_on_each_side(reference: DoorReference, sides: Iterable[Side]) -> Told:
+    """What a robot tells where a reference fits doors on two sides."""
+    first, second = sorted(sides)
+    say = "turn around first, and say" if is_behind(reference) else "say"
+    template = f"{{what}}: there is one {{first}} and {{second}} there; {say} on which side"
+    return Told(template, what=reference, first=first, second=second)
 
 
 def turned(pose: Pose) -> Pose:

@@ -8,12 +8,9 @@ import shapely
 import shapely.ops
 from shapely import LineString, Point, Polygon, STRtree
 
-from semnav_env.world.maps.doorways import DRAWING_TOLERANCE
+from semnav_env.world.maps.doorways import DRAWING_TOLERANCE, NARROWEST_ROBOT
 from semnav_env.world.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 from semnav_env.world.maps.plan_fault import PlanFault, point_in, written
-
-LEAST_OVERLAP = 0.05
-"""Area that two regions must share to overlap, square metres; with less they only touch."""
 
 DOORSTEP_DEPTH = 0.3
 """Distance before and behind a doorway that must be free, metres."""
@@ -33,14 +30,17 @@ def faults(plan: FloorPlan) -> Iterator[PlanFault]:
 
 
 def _overlaps(plan: FloorPlan) -> Iterator[PlanFault]:
-    """Rooms and areas that share floor with each other or with a corridor."""
+    """Rooms and areas that share floor with each other or with a corridor, and space for a robot.
+
+    What is narrower is passed: no robot stands in it, so none is in two rooms.
+    """
     regions = [*plan.rooms, *plan.areas, *plan.corridors]
     enclosed = len(plan.rooms) + len(plan.areas)
     tree = STRtree([region.polygon for region in regions])
     for i, region in enumerate(regions[:enclosed]):
         for j in sorted(tree.query(region.polygon, "intersects").tolist()):
             shared = region.polygon.intersection(regions[j].polygon)
-            if j > i and shared.area > LEAST_OVERLAP:
+            if j > i and not shared.buffer(-NARROWEST_ROBOT / 2).is_empty:
                 problem = f"overlaps {regions[j].name} by {shared.area:.2f} m2; part the two"
                 yield PlanFault(region.name, problem, point_in(shared))
 

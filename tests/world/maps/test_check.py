@@ -154,6 +154,14 @@ def test_rooms_that_overlap_are_found() -> None:
     assert "room: overlaps other by 2.00 m2; part the two" in found(replace(plan, rooms=both))
 
 
+@pytest.mark.parametrize(("width", "count"), [(0.3, 0), (0.6, 1)])
+def test_rooms_overlap_only_where_a_robot_has_space_in_both(width: float, count: int) -> None:
+    """Outlines that cross by less, such as those of OpenStreetMap floors, leave nothing open."""
+    plan = room_at_a_corridor()
+    both = (*plan.rooms, Region("other", box(6.0 - width, 3, 6, 5)))
+    assert str(found(replace(plan, rooms=both))).count("overlaps") == count
+
+
 def test_a_door_between_cabinets_does_not_lie_in_a_wall() -> None:
     pair = cabinet(3.0, 3.9, 3.5, 4.1), cabinet(4.4, 3.9, 4.9, 4.1)
     plan = room_at_a_corridor(0.9, *pair)

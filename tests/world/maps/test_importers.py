@@ -200,6 +200,7 @@ def test_the_command_imports_a_map_and_reports(tmp_path, capsys):
     assert "left out: door 'nowhere'" in said
     last = said.splitlines()[-1]
     assert last.startswith(f"next: `semnav serve`, and drop {out} there")
+    assert ("mend the faults" in last) == ("fault: " in said)
     assert len(load_floor_plan(out).doors) == 2
     assert picture.stat().st_size > 0
     assert cli.main([*words, "--json", "--tracing.mend", "0"]) == 0

@@ -67,8 +67,8 @@ const { send, sendFile } = connect({
     pending -= 1;
     if (!pending) settle();
   },
-  understood({ clauses }) {
-    talk.showClauses(clauses);
+  understood({ clauses, corrections }) {
+    talk.showClauses(clauses, corrections);
     run = "none";
     begin("driving");
     remember();

@@ -12,9 +12,10 @@ export function clear() {
   say("");
 }
 
-/** Show the clauses of a command that is carried out. */
-export function showClauses(texts) {
+/** Show the clauses of a command that is carried out, and which words were corrected. */
+export function showClauses(texts, corrections = []) {
   clear();
+  heard.replaceChildren(...corrections.map((line) => made("p", line)));
   clauses.replaceChildren(...texts.map((text, index) => {
     const item = made("li", text);
     item.dataset.mark = index + 1;
