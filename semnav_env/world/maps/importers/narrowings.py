@@ -70,8 +70,8 @@ def _gaps(halls: Sequence[Region], solids: STRtree) -> FloatArray:
     points = shapely.points(np.unique(shapely.get_coordinates(walls), axis=0))
     corner, wall = solids.query(points, "dwithin", WIDEST_NARROWING)
     lines = shapely.shortest_line(points[corner], solids.geometries[wall])
-    ends = shapely.get_coordinates(lines[shapely.length(lines) >= DOORWAY_WIDTHS[0]])
-    ends = ends.reshape(-1, 2, 2)
+    coordinates = shapely.get_coordinates(lines[shapely.length(lines) >= DOORWAY_WIDTHS[0]])
+    ends: FloatArray = coordinates.reshape(-1, 2, 2)
     return ends[_are_free(_between(ends, JAMB_SHARE, 1.0 - JAMB_SHARE), solids)]
 
 
