@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from pathlib import Path
 
-from semnav_env.judge.episodes.buildings import EPISODES_PER_BUILDING, benchmark_floors
+from semnav_env.judge.episodes.buildings import EPISODES_PER_GROUP, benchmark_floors
 from semnav_env.judge.episodes.generate import TooBareError, generate_episode
 from semnav_env.judge.episodes.splits import SEED, SPLITS
 from semnav_env.language import Command
@@ -40,11 +40,11 @@ def first_commands(kth: Path, split: str, folder: Path) -> Iterator[FirstCommand
     """
     wanted = replace(SPLITS["test_real"], name=split)
     floors = [floor for floor, its_split in benchmark_floors([kth]) if its_split == split]
-    for building, (_, of_one) in enumerate(groupby(floors, lambda floor: floor.building)):
+    for group, (_, of_one) in enumerate(groupby(floors, lambda floor: floor.group)):
         sites = [floor.save(folder) for floor in of_one]
-        for k in range(EPISODES_PER_BUILDING):
-            site = sites[k * len(sites) // EPISODES_PER_BUILDING]
-            number = building * EPISODES_PER_BUILDING + k
+        for k in range(EPISODES_PER_GROUP):
+            site = sites[k * len(sites) // EPISODES_PER_GROUP]
+            number = group * EPISODES_PER_GROUP + k
             try:
                 episode = generate_episode(site, wanted, number, SEED)
             except TooBareError:

@@ -1,7 +1,7 @@
-"""The real-building benchmark: floors of drawn buildings that the user has, and their splits.
+"""The real-building benchmark: floors that the user has, drawn or mapped, and their splits.
 
-The project holds the names and the fingerprints of KTH's floors, and the seed of their episodes,
-but no plans: their makers state no licence.
+The project holds the names and the fingerprints of the floors, and the seed of their episodes, but
+no plans: the makers of the drawn ones state no licence.
 """
 
 from __future__ import annotations
@@ -36,11 +36,17 @@ TUNE, TEST, OTHER = "real_drawn_tune", "real_drawn_test", "real_drawn_other"
 """Splits of drawn floors: buildings to tune on, buildings to test on, and buildings that the
 project has no fingerprint of."""
 
-SPLIT_NAMES = (TUNE, TEST, OTHER)
-"""All of them."""
+MAPPED_TUNE, MAPPED = "real_mapped_tune", "real_mapped"
+"""Splits of floors that a robot mapped: floors to tune on, and all others, which are to test on."""
 
-EPISODES_PER_BUILDING = 15
-"""Number of episodes in each building."""
+FAMILIES = {"real_drawn": (TUNE, TEST, OTHER), "real_mapped": (MAPPED_TUNE, MAPPED)}
+"""The splits of drawn and of mapped floors, by the name of the file that lists their floors."""
+
+EPISODES_PER_GROUP = 15
+"""Number of episodes in each drawn building, and on each mapped floor, see `RealFloor.group`."""
+
+MAPPED_BUILDING = "gdc"
+"""Name of the building whose floors a robot mapped."""
 
 FLOORS_PER_BUILDING = 3
 """Largest number of floors of a building: floors above each other are alike."""
@@ -51,8 +57,9 @@ LEAST_CORRIDOR_DOORS = 8
 AT_CORRIDOR = 0.1
 """Distance from a corridor within which a door is the corridor's, metres."""
 
-LISTED = files("semnav_env.judge.episodes") / "frozen" / "real_drawn.json"
-"""For each split the floors, as BUILDING/FLOOR, with the fingerprints of their plans."""
+LISTED_FOLDER = files("semnav_env.judge.episodes") / "frozen"
+"""Folder with a file for each of `FAMILIES`: for each split the floors, as BUILDING/FLOOR, with the
+fingerprints of their plans."""
 
 
 @dataclass(frozen=True)
@@ -70,9 +77,22 @@ class RealFloor:
     level: str | None = None
 
     @property
+    def mapped(self) -> bool:
+        """Whether a robot mapped it; else somebody drew it."""
+        return self.path.suffix == ".yaml"
+
+    @property
     def name(self) -> str:
         """BUILDING/FLOOR."""
         return f"{self.building}/{self.path.stem if self.level is None else self.level}"
+
+    @property
+    def group(self) -> str:
+        """Name of what has `EPISODES_PER_GROUP` episodes: the building, or a mapped floor alone.
+
+        Drawn floors above each other are alike; the mapped ones differ as buildings do.
+        """
+        return self.name if self.mapped else self.building
 
     def plan(self) -> FloorPlan:
         """Its plan.
@@ -96,14 +116,21 @@ class RealFloor:
 @lru_cache(maxsize=1)
 def listed_floors() -> Mapping[str, Mapping[str, str]]:
     """By split: the fingerprints of the benchmark's floors by their names."""
-    found: dict[str, dict[str, str]] = json.loads(LISTED.read_text())
+    found: dict[str, dict[str, str]] = {}
+    for family in FAMILIES:
+        found |= json.loads((LISTED_FOLDER / f"{family}.json").read_text())
     return found
 
 
-def split_of(building: str) -> str:
-    """The split of a building: `TUNE`, `TEST`, or `OTHER` if it is not listed."""
-    for split, floors in listed_floors().items():
-        if any(name.partition("/")[0] == building for name in floors):
+def split_of(floor: RealFloor) -> str:
+    """The split of a floor: that of its building if it is drawn, its own if it is mapped.
+
+    It is `OTHER`, or `MAPPED`, if it is not listed.
+    """
+    if floor.mapped:
+        return MAPPED_TUNE if floor.name in listed_floors()[MAPPED_TUNE] else MAPPED
+    for split in (TUNE, TEST):
+        if any(name.partition("/")[0] == floor.building for name in listed_floors()[split]):
             return split
     return OTHER
 
@@ -131,6 +158,21 @@ def _floors_of(folder: Path) -> Iterator[RealFloor]:
         raise FloorPlanError(f"{folder}: holds no BUILDING/FLOOR.xml of the KTH data set")
     for path in paths:
         yield RealFloor(path.parent.name, path)
+
+
+def mapped_floors(folders: Sequence[Path]) -> tuple[RealFloor, ...]:
+    """The mapped floors in folders with FLOOR/FLOOR.yaml, sorted.
+
+    Raises:
+        FloorPlanError: a folder has none.
+    """
+    found: list[RealFloor] = []
+    for folder in folders:
+        paths = [path for path in folder.glob("*/*.yaml") if path.stem == path.parent.name]
+        if not paths:
+            raise FloorPlanError(f"{folder}: holds no map of a floor, FLOOR/FLOOR.yaml")
+        found += [RealFloor(MAPPED_BUILDING, path) for path in paths]
+    return tuple(sorted(found, key=lambda floor: floor.name))
 
 
 def usable_floors(floors: Sequence[RealFloor]) -> Iterator[RealFloor]:
@@ -167,20 +209,27 @@ def halves(buildings: Sequence[str]) -> dict[str, str]:
     return {name: (TUNE, TEST)[k % 2] for k, name in enumerate(names)}
 
 
-def benchmark_floors(places: Sequence[Path]) -> tuple[tuple[RealFloor, str], ...]:
-    """The floors in places of `floors_in` that episodes are made in, each with its split, sorted.
+def benchmark_floors(
+    places: Sequence[Path], mapped: Sequence[Path] = ()
+) -> tuple[tuple[RealFloor, str], ...]:
+    """The floors that episodes are made in, each with its split, sorted by group.
 
-    Those are the listed floors, and the `usable_floors` of buildings that are not listed.
+    Of drawn floors those are the listed ones, and the `usable_floors` of buildings that are not
+    listed; of mapped floors all.
+
+    Args:
+        places: of drawn floors, as `floors_in` takes them.
+        mapped: folders of mapped floors, as `mapped_floors` takes them.
 
     Raises:
         FloorPlanError: a folder has none, or a file cannot be read.
     """
-    there = [(floor, split_of(floor.building)) for floor in floors_in(places)]
-    listed = [(floor, s) for floor, s in there if floor.name in listed_floors().get(s, {})]
-    others = usable_floors([floor for floor, split in there if split == OTHER])
-    return tuple(
-        sorted([*listed, *((floor, OTHER) for floor in others)], key=lambda each: each[0].name)
-    )
+    drawn = [(floor, split_of(floor)) for floor in floors_in(places)]
+    listed = [(floor, s) for floor, s in drawn if floor.name in listed_floors().get(s, {})]
+    others = usable_floors([floor for floor, split in drawn if split == OTHER])
+    by_robots = [(floor, split_of(floor)) for floor in mapped_floors(mapped)]
+    chosen = [*listed, *((floor, OTHER) for floor in others), *by_robots]
+    return tuple(sorted(chosen, key=lambda each: each[0].name))
 
 
 def fault_of(floor: RealFloor, split: str, plan: FloorPlan) -> str | None:
@@ -216,24 +265,24 @@ class FairnessFilter:
 
 
 def episodes_of(
-    building: int, sites: Sequence[Site], split: str, seed: int = SEED
+    group: int, sites: Sequence[Site], split: str, seed: int = SEED
 ) -> Iterator[tuple[Episode | None, FairnessFilter]]:
-    """The episodes of a building, evenly over its floors; None for one that could not be made.
+    """The episodes of a group, evenly over its floors; None for one that could not be made.
 
     With each comes what became of the commands that were drawn for it: the first one is that of an
     episode of which the answer may depend on centimetres.
 
     Args:
-        building: number of the building in its split.
+        group: number of the group in its split, see `RealFloor.group`.
         sites: its floors.
         split: name of the split.
         seed: of the episodes.
     """
     wanted = replace(SPLITS["test_real"], name=split)
     checks = [StableAnswers(site.plan) for site in sites]
-    for k in range(EPISODES_PER_BUILDING):
-        place = k * len(sites) // EPISODES_PER_BUILDING
-        number = building * EPISODES_PER_BUILDING + k
+    for k in range(EPISODES_PER_GROUP):
+        place = k * len(sites) // EPISODES_PER_GROUP
+        number = group * EPISODES_PER_GROUP + k
         fair = FairnessFilter(checks[place])
         try:
             yield generate_episode(sites[place], wanted, number, seed, fair), fair

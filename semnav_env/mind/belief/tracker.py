@@ -62,6 +62,7 @@ class BeliefTracker:
         tracker = BeliefTracker(lidar="tim561", mount=(0.45, 0.0, 0.0))
         tracker.begin(parse("go through the second door on the right"))
         belief = tracker.update(ranges, odometry=(x, y, heading))
+        tracker.begin(parse("go to the first door"), keep=True)  # in the building it knows by now
 
     An update has three parts: `take` writes what was sensed into `senses`, the compiled
     `understand` does what is to be done at every scan, and `think` what its events call for.
@@ -129,7 +130,7 @@ class BeliefTracker:
         self._progress = np.zeros(1, CLAUSE_PROGRESS)
         self._told = ToldWays()
         self._period = 1.0 / self.lidar.rate_hz
-        self._begun = self._is_first = False
+        self._begun, self._is_first = False, True
         self.thread_door = ThreadDoor()
         self._known_scene = None if known_scene is None else KnownScene(known_scene)
         self._last_source: Callable[[], RememberedScene | None] = nothing
@@ -172,17 +173,25 @@ class BeliefTracker:
             read_ranges_in(self.senses, ranges)
 
     @for_one_thread
-    def begin(self, command: Command, ways: Mapping[int, Way] = NO_WAYS) -> None:
-        """Forget everything and begin to follow a command.
+    def begin(
+        self, command: Command, ways: Mapping[int, Way] = NO_WAYS, keep: bool = False
+    ) -> None:
+        """Begin to follow a command, and forget everything that is not kept.
+
+        What is kept are the walls, doors and bumps that are remembered, and the believed pose. The
+        odometry frame stays the same, so odometry must go on, and no scan may come from another
+        building. The command begins where the robot stands at the next scan. When the memory is
+        full, what was seen most rarely makes room (`SceneMemory`).
 
         Args:
             command: to follow.
             ways: to the named rooms of the command, by the number of the clause, odometry frame:
                 the words in which somebody who knows the building points them out.
+            keep: whether the robot goes on with what it saw under the commands before.
         """
         self.let_go()
-        self.memory.clear()
-        self.bumps.clear()
+        if not keep:
+            self._forget()
         self._told.tell(ways)
         self.follower = Follower(
             command,
@@ -193,10 +202,17 @@ class BeliefTracker:
             rules=self.rules,
             progress=self._progress,
         )
-        self._estimate[:] = np.zeros(1, ESTIMATE)
-        self._estimate["scan"], self._estimate["corrects_drift"] = -1, self.corrects_drift
+        self._estimate["scan"], self._estimate["clause"] = -1, 0
+        self._estimate["corrects_drift"] = self.corrects_drift
         self._estimate["observes_features"] = self._observes_features
-        self._begun = self._is_first = True
+        self._is_first = self._is_first or not keep
+        self._begun = True
+
+    def _forget(self) -> None:
+        """Forget what is remembered, and where the robot is believed to be."""
+        self.memory.clear()
+        self.bumps.clear()
+        self._estimate[:] = np.zeros(1, ESTIMATE)
 
     @for_one_thread
     def update(

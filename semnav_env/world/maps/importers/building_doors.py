@@ -1,4 +1,4 @@
-"""The doors of an imported building: labelled ones, and others between two places."""
+"""The doors of an imported building: labelled ones, others between two places or across a hall."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ import shapely
 
 from semnav_env.world.maps.floor_plan import FloorPlan, Material, PlanDoor, Surface
 from semnav_env.world.maps.importers.fitting import fit_door
-from semnav_env.world.maps.importers.gaps import LEAST_DOORWAY_DISTANCE, find_doorways
+from semnav_env.world.maps.importers.gaps import LEAST_DOORWAY_DISTANCE, apart, find_doorways
 from semnav_env.world.maps.importers.labels import DoorLabel
+from semnav_env.world.maps.importers.narrowings import find_narrowings
 from semnav_env.world.maps.rules import FloorPlanError, check_door, check_doorway
 from semnav_features.frames import FloatArray, Point, middle_of
 
@@ -22,7 +23,8 @@ def with_doors(
 ) -> tuple[FloorPlan, tuple[str, ...]]:
     """The plan with its doors, and why others were left out.
 
-    Labelled doors come first; then the doorways between two places that are no labelled doors.
+    Labelled doors come first; then the doorways between two places, and those across a hallway,
+    that are no labelled doors.
 
     Args:
         plan: walls and places.
@@ -126,7 +128,9 @@ def _further(
     """Unlabelled doorways that keep the rules, with generated names."""
     taken = [(door.start, door.end) for door in doors.values()]
     middles = [middle_of(*ends) for ends in (*taken, *((each.start, each.end) for each in labels))]
-    for doorway in find_doorways(plan.regions, plan.solids, is_free):
+    between = find_doorways(plan.regions, plan.solids, is_free)
+    across = find_narrowings(plan.corridors, plan.solids, is_free)
+    for doorway in apart([*between, *across]):
         if any(math.dist(doorway.midpoint, middle) <= LEAST_DOORWAY_DISTANCE for middle in middles):
             continue
         name, number = doorway.name, 2

@@ -46,18 +46,25 @@ def find_doorways(
     Returns:
         Open doors, named by the places they join.
     """
-    doors: list[PlanDoor] = []
-    for door in sorted(_doorways(places, solids), key=lambda door: door.width):
-        way = _way(door)
-        if len(solids.query(way.buffer(NARROWEST_ROBOT / 2, cap_style="flat"), "intersects")):
-            continue
-        if not all(is_free((x, y)) for x, y in way.segmentize(0.05).coords):
-            continue
-        if all(
-            math.dist(door.midpoint, other.midpoint) > LEAST_DOORWAY_DISTANCE for other in doors
-        ):
-            doors.append(door)
-    return tuple(doors)
+    doors = sorted(_doorways(places, solids), key=lambda door: door.width)
+    return apart([door for door in doors if is_passable(door, solids, is_free)])
+
+
+def is_passable(door: PlanDoor, solids: STRtree, is_free: Callable[[Point], bool]) -> bool:
+    """Whether a robot can go straight through, from `CROSSING_DEPTH` before to as far behind."""
+    way = _way(door)
+    if len(solids.query(way.buffer(NARROWEST_ROBOT / 2, cap_style="flat"), "intersects")):
+        return False
+    return all(is_free((x, y)) for x, y in way.segmentize(0.05).coords)
+
+
+def apart(doors: Sequence[PlanDoor]) -> tuple[PlanDoor, ...]:
+    """The doors without those within `LEAST_DOORWAY_DISTANCE` of one before them."""
+    kept: list[PlanDoor] = []
+    for door in doors:
+        if all(math.dist(door.midpoint, other.midpoint) > LEAST_DOORWAY_DISTANCE for other in kept):
+            kept.append(door)
+    return tuple(kept)
 
 
 def places_beside(
