@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -23,7 +24,7 @@ from semnav_features.kernels.memory import (
     _on_one_line,
     remember_wall,
 )
-from semnav_features.kernels.remembered import HITS, WALL_ROWS, Ends
+from semnav_features.kernels.remembered import HITS, VARIANCE, WALL_ROWS, Ends
 
 seeds, sizes = st.integers(0, 2**32 - 1), st.integers(0, 8 * WIDTH + 3)
 
@@ -31,7 +32,7 @@ seeds, sizes = st.integers(0, 2**32 - 1), st.integers(0, 8 * WIDTH + 3)
 def drawn_walls(seed: int, count: int) -> FloatArray:
     """Remembered walls and one more, mostly along x and close together; the room is eight more."""
     rng = np.random.default_rng(seed)
-    walls, room = np.empty((WALL_ROWS, count + 1)), np.full((WALL_ROWS, WIDTH), np.nan)
+    walls, room = np.zeros((WALL_ROWS, count + 1)), np.full((WALL_ROWS, WIDTH), np.nan)
     middle, half = rng.uniform(-4.0, 4.0, count + 1), rng.uniform(0.05, 3.0, count + 1)
     half *= np.where(rng.random(count + 1) < 0.1, -1.0, 1.0)
     walls[0], walls[2] = middle - half, middle + half
@@ -105,3 +106,13 @@ def test_a_wall_seen_again_is_fused_in_whatever_block_it_is(count: int) -> None:
             used = remember_wall((0.0, 1.0 * k, 2.0, 1.0 * k), known, used)
         assert used == count
         assert (known[HITS, :count] == hits).all()
+
+
+@given(st.floats(0.0, 0.14))
+def test_a_wall_with_a_ledge_varies_by_half_of_its_depth(depth: float) -> None:
+    known, used = np.zeros((WALL_ROWS, WIDTH)), 0
+    for _ in range(40):
+        for y in (0.0, depth):
+            used = remember_wall((0.0, y, 2.0, y), known, used)
+    assert used == 1
+    assert math.sqrt(known[VARIANCE, 0]) == pytest.approx(0.5 * depth, rel=0.15)

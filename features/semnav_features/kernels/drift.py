@@ -17,6 +17,7 @@ from semnav_features.kernels.lanes import WIDTH, bits, first_lanes, load, smalle
 from semnav_features.kernels.normal_equations import solve_step
 from semnav_features.kernels.remembered import (
     HITS,
+    VARIANCE,
     Ends,
     ends_of_wall,
     ends_of_walls,
@@ -37,9 +38,9 @@ MIN_PARALLEL_COSINE = math.cos(math.radians(10.0))
 """Cosine of the largest angle between two sightings of the same wall."""
 
 WALL_DEVIATION = 0.01
-"""Standard deviation of the distance between two sightings of a metre of wall, metres. Along drives
-in generated offices it is 0.003 to 0.004 (sightings two thirds of a second apart); rough walls and
-what stands before them make it more."""
+"""Standard deviation of the distance between two sightings of a metre of a straight wall, metres,
+to which that of the wall's own sightings is added. Walls with ledges, and furniture that looks like
+another wall from elsewhere, say little of where the robot is."""
 
 OUTLIER_DISTANCE = 0.1
 """Distance at which the weight of a sighting has fallen to one half, metres."""
@@ -63,7 +64,13 @@ PRIOR: Sums = (
 def with_sighting(wall: Ends, known: FloatArray, used: int, pose: Pose, sums: Sums) -> Sums:
     """The normal equations with what a wall of a scan adds to them; see `scene_drift`."""
     like, begin, end = _nearest_like(wall, known, used)
-    return _added(wall, begin, end, ends_of_wall(known, like), pose, sums) if like >= 0 else sums
+    if like < 0:
+        return sums
+    x1, y1, x2, y2 = wall
+    ux, uy = x2 - x1, y2 - y1
+    stretch = x1 + begin * ux, y1 + begin * uy, x1 + end * ux, y1 + end * uy
+    variance = WALL_DEVIATION**2 + known[VARIANCE, like]
+    return _added(stretch, ends_of_wall(known, like), variance, pose, sums)
 
 
 @kernel
@@ -132,23 +139,22 @@ def _alike(wall: Ends, known: FloatArray, start: int, used: int) -> np.uint64:
 
 
 @kernel
-def _added(wall: Ends, begin: float, end: float, old: Ends, pose: Pose, sums: Sums) -> Sums:
+def _added(stretch: Ends, old: Ends, variance: float, pose: Pose, sums: Sums) -> Sums:
     """Add both ends of a stretch of a wall beside a remembered one to the normal equations.
 
     With the unit normal n of the remembered line and d = n . (p - q), a shift moves d by n, and a
-    rotation about the lidar moves it by the lever arm (p - lidar) x n.
+    rotation about the lidar moves it by the lever arm (p - lidar) x n. The variance is of d, for a
+    metre of wall.
     """
-    x1, y1, x2, y2 = wall
+    x1, y1, x2, y2 = stretch
     xx, xy, yy, xr, yr, rr, bx, by, br = sums
-    ux, uy = x2 - x1, y2 - y1
     start_x, start_y, end_x, end_y = old
     dx, dy = end_x - start_x, end_y - start_y
     length = math.sqrt(dx * dx + dy * dy)
     nx, ny = -dy / length, dx / length
-    shared = (end - begin) * math.sqrt(ux * ux + uy * uy)
-    weight = 0.5 * min(shared, MAX_WEIGHING_OVERLAP) / WALL_DEVIATION**2
-    for share in (begin, end):
-        x, y = x1 + share * ux, y1 + share * uy
+    shared = math.sqrt((x2 - x1) ** 2 + (y2 - y1) ** 2)
+    weight = 0.5 * min(shared, MAX_WEIGHING_OVERLAP) / variance
+    for x, y in ((x1, y1), (x2, y2)):
         off = nx * (x - start_x) + ny * (y - start_y)
         lever = ny * (x - pose[0]) - nx * (y - pose[1])
         counts = weight / (1.0 + (off / OUTLIER_DISTANCE) ** 2)

@@ -22,12 +22,13 @@ from semnav_features.kernels.pass_through import is_passed_by_beams
 from semnav_features.kernels.past_views import FREE, VIEWS, look_from, note_view
 from semnav_features.kernels.remembered import (
     HITS,
+    VARIANCE,
     Ends,
     ends_of_wall,
     ends_of_walls,
     lowest_bit,
     place_for_new,
-    write_wall,
+    write_ends,
 )
 from semnav_features.kernels.rows import put_row
 from semnav_features.kernels.standing import (
@@ -160,7 +161,7 @@ def forget_passed(memory: Memory) -> None:
         if walls[HITS, k] == 0.0:
             continue
         if dx * dx + dy * dy > MAX_MOVING_LENGTH**2:
-            write_wall(walls, k, standing_part((x, y, x2, y2), used.views, seen), walls[HITS, k])
+            write_ends(walls, k, standing_part((x, y, x2, y2), used.views, seen))
             continue
         passed = True
         for share in (0.5, 0.2, 0.8):
@@ -285,10 +286,11 @@ def remember_wall(wall: Ends, known: FloatArray, used: int) -> int:
             candidates &= candidates - np.uint64(1)
             old = ends_of_wall(known, k)
             if _on_one_line(old, wall):
-                write_wall(known, k, _fused(old, known[HITS, k], wall), known[HITS, k] + 1.0)
+                _fuse(wall, known, k)
                 return used
     place, used = place_for_new(known[HITS], used)
-    write_wall(known, place, wall, 1.0)
+    write_ends(known, place, wall)
+    known[HITS, place], known[VARIANCE, place] = 1.0, 0.0
     return used
 
 
@@ -342,7 +344,28 @@ def _on_one_line(old: Ends, wall: Ends) -> bool:
 
 
 @kernel
-def _fused(old: Ends, sightings: float, wall: Ends) -> Ends:
+def _fuse(wall: Ends, known: FloatArray, k: int) -> None:
+    """Fuse a wall with remembered wall `k`, and note how far it lies from what they became."""
+    hits = min(known[HITS, k], MAX_WEIGHING_SIGHTINGS)
+    fused = _fused(ends_of_wall(known, k), hits, wall)
+    write_ends(known, k, fused)
+    known[HITS, k] += 1.0
+    known[VARIANCE, k] += (_square_distance(wall, fused) - known[VARIANCE, k]) / (hits + 1.0)
+
+
+@kernel
+def _square_distance(wall: Ends, line: Ends) -> float:
+    """Mean square distance of both ends of a wall from the line of another, m^2."""
+    x1, y1, x2, y2 = wall
+    start_x, start_y, end_x, end_y = line
+    dx, dy = end_x - start_x, end_y - start_y
+    first = (x1 - start_x) * dy - (y1 - start_y) * dx
+    last = (x2 - start_x) * dy - (y2 - start_y) * dx
+    return 0.5 * (first * first + last * last) / (dx * dx + dy * dy)
+
+
+@kernel
+def _fused(old: Ends, hits: float, wall: Ends) -> Ends:
     """A wall fused with an old one: their mean line by length and sightings, over both extents.
 
     (ux, uy) is the mean direction and (x, y) the mean of the midpoints; the ends of both walls are
@@ -351,7 +374,6 @@ def _fused(old: Ends, sightings: float, wall: Ends) -> Ends:
     x1, y1, x2, y2 = wall
     start_x, start_y, end_x, end_y = old
     dx, dy = end_x - start_x, end_y - start_y
-    hits = min(sightings, MAX_WEIGHING_SIGHTINGS)
     weight = hits * math.hypot(dx, dy)
     share = weight / (weight + math.hypot(x2 - x1, y2 - y1))
     ux, uy = hits * dx + x2 - x1, hits * dy + y2 - y1

@@ -13,12 +13,12 @@ from semnav_features.kernels.lanes import load
 Ends: TypeAlias = tuple[float, float, float, float]
 """Start and end of a wall or door: x1, y1, x2, y2 in metres."""
 
-START_X, START_Y, END_X, END_Y, HITS = range(5)
-"""Rows of the array of remembered walls, shape (5, room), float64: their ends in metres, and how
-often each was seen. A wall is a column, so that eight walls can be compared at once: the room is a
-multiple of eight."""
+START_X, START_Y, END_X, END_Y, HITS, VARIANCE = range(6)
+"""Rows of the array of remembered walls, shape (6, room), float64: their ends in metres, how often
+each was seen, and the mean square distance of its sightings from it, m^2. A wall is a column, so
+that eight walls can be compared at once: the room is a multiple of eight."""
 
-WALL_ROWS = HITS + 1
+WALL_ROWS = VARIANCE + 1
 
 lowest_bit: Any = trailing_zeros
 """Place of the lowest bit that is set in a number which is not 0; only kernels can call it."""
@@ -42,10 +42,9 @@ def ends_of_walls(walls: FloatArray, start: int) -> Any:
 
 
 @kernel
-def write_wall(walls: FloatArray, k: int, ends: Ends, hits: float) -> None:
-    """Write remembered wall `k`."""
+def write_ends(walls: FloatArray, k: int, ends: Ends) -> None:
+    """Write the ends of remembered wall `k`."""
     walls[START_X, k], walls[START_Y, k], walls[END_X, k], walls[END_Y, k] = ends
-    walls[HITS, k] = hits
 
 
 @kernel

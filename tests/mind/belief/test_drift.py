@@ -34,9 +34,11 @@ HERE: Pose = (0.5, -0.4, 0.3)
 small = st.tuples(st.floats(-0.08, 0.08), st.floats(-0.08, 0.08), st.floats(-0.03, 0.03))
 
 
-def known(walls: FloatArray, hits: int = MIN_LANDMARK_SIGHTINGS) -> FloatArray:
+def known(
+    walls: FloatArray, hits: int = MIN_LANDMARK_SIGHTINGS, variance: float = 0.0
+) -> FloatArray:
     """What is remembered after these walls were seen that often, shape (`WALL_ROWS`, n)."""
-    return np.vstack((walls.T, np.full(len(walls), hits)))
+    return np.vstack((walls.T, np.full(len(walls), hits), np.full(len(walls), variance)))
 
 
 def corrected(walls: FloatArray, memory: FloatArray, pose: Pose) -> Pose:
@@ -83,6 +85,16 @@ def test_one_scan_corrects_a_part_and_never_more_than_the_whole(error: Pose) -> 
     _, y, _ = corrected(seen, known(CORRIDOR), believed)
     assert abs(y - HERE[1]) <= abs(error[1])
     assert (y - HERE[1]) * error[1] >= -1e-12
+
+
+@given(st.floats(0.01, 0.08), st.floats(0.005, 0.1))
+def test_walls_whose_sightings_differ_correct_less(error: float, deviation: float) -> None:
+    believed = HERE[0], HERE[1] + error, HERE[2]
+    seen = placed(CORRIDOR, HERE, believed)
+    straight, rough = (
+        corrected(seen, known(CORRIDOR, variance=v), believed)[1] for v in (0, deviation**2)
+    )
+    assert HERE[1] < straight < rough < believed[1]
 
 
 @pytest.mark.parametrize(
