@@ -3,7 +3,9 @@
 import json
 import subprocess
 import sys
+from dataclasses import dataclass
 from types import SimpleNamespace
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -21,6 +23,24 @@ from semnav_scripts.map import COMMANDS as MAP
 from tests.support.command_line import run
 
 COMMANDS = cli.SEMNAV.commands
+
+
+@dataclass(frozen=True)
+class Optionals:
+    """Options that may be absent.
+
+    Attributes:
+        number: a number.
+        text: a text.
+        choice: one of two words.
+    """
+
+    number: int | None = None
+    text: str | None = None
+    choice: Literal["one", "other"] | None = None
+
+    def run(self) -> int:
+        return 0
 
 
 @pytest.mark.parametrize(
@@ -115,10 +135,12 @@ def test_an_option_that_may_be_absent_is_shown_like_any_other(capsys, name):
     assert "{None}" not in run(capsys, name, "--help")[1]
 
 
-def test_an_option_that_may_be_absent_takes_none_for_a_value_like_any_other(capsys):
-    """A file may be called so, and a number may not."""
-    assert "no floor plan" in run(capsys, "demo", "stop", "--map", "None")[2]
-    assert "--seed" in run(capsys, "demo", "stop", "--seed", "None")[2]
+def test_an_option_that_may_be_absent_can_be_given_as_none():
+    """As launch files must."""
+    given = parse(
+        Optionals, ["--number", "None", "--text", "None", "--choice", "None"], "optionals"
+    )
+    assert given == Optionals() == parse(Optionals, [], "optionals")
 
 
 def test_the_help_names_every_command(capsys):
