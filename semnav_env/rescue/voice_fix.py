@@ -70,8 +70,7 @@ def fix(voices: Sequence[HeardVoice]) -> VoiceFix | None:
     angles = np.array([voice.direction for voice in voices])
     eyes = np.array([voice.pose[:2] for voice in voices]).reshape(-1, 2)
     stds = np.array([voice.std for voice in voices])
-    crossing = np.abs(np.sin(angles[:, None] - angles))
-    if not len(voices) or crossing.max() < math.sin(LEAST_CROSSING):
+    if not _cross(angles):
         return None
     across = np.column_stack((-np.sin(angles), np.cos(angles)))
     place = np.linalg.lstsq(across, (across * eyes).sum(axis=1), rcond=None)[0]
@@ -83,11 +82,17 @@ def fix(voices: Sequence[HeardVoice]) -> VoiceFix | None:
             break
     away = place - eyes
     ahead = away[:, 0] * np.cos(angles) + away[:, 1] * np.sin(angles)
-    if (ahead <= 0.0).any():
-        return None
+    if (ahead <= 0.0).any() or not _cross(np.arctan2(away[:, 1], away[:, 0])):
+        return None  # lines that meet behind may send the place to where all directions are alike
     slopes, _ = _linearised(place, eyes, angles, stds)
     covariance = np.asarray(np.linalg.inv(slopes.T @ slopes), dtype=np.float64)
     return VoiceFix((float(place[0]), float(place[1])), covariance)
+
+
+def _cross(angles: FloatArray) -> bool:
+    """Whether two of some directions cross at `LEAST_CROSSING` or more."""
+    crossing = np.abs(np.sin(angles[:, None] - angles))
+    return bool(np.any(crossing >= math.sin(LEAST_CROSSING)))
 
 
 def _linearised(

@@ -140,4 +140,4 @@ def test_ground_says_where_a_bare_door_leads(capsys) -> None:
     assert main(["ground", "zweite Tür rechts", pose]) == 0
     row = capsys.readouterr().out.splitlines()[1]
     assert row.startswith("pass ")
-    assert "fahr durch die zweite Tür rechts, da nichts anderes gesagt ist" in row
+    assert "die zweite Tür rechts, hindurch, da nichts anderes gesagt ist" in row
